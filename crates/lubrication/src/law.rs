@@ -1,0 +1,63 @@
+use pendular_pair::{Bridge, OutOfRange};
+
+/// A model of the viscous force along the line of centres.
+pub trait NormalDrag {
+    /// The drag coefficient over the gap of one bridge.
+    type Curve: NormalCurve;
+
+    /// Folds a bridge and the liquid's `viscosity` η (Pa s) into its drag curve.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] unless the viscosity is positive and finite.
+    fn curve(&self, bridge: &Bridge, viscosity: f64) -> Result<Self::Curve, OutOfRange>;
+}
+
+/// The normal drag coefficient of one bridge as a function of the gap alone.
+pub trait NormalCurve: Copy {
+    /// Drag coefficient c_n, N s/m, at least 0 and finite for every `gap` (m, overlap negative):
+    /// the force on the pair is −c_n dS/dt along the line of centres.
+    fn coefficient(&self, gap: f64) -> f64;
+
+    /// G(S) = ∫ c_n dS from gap 0 to `gap`, N s: the impulse that a slow change of the gap costs.
+    fn impulse(&self, gap: f64) -> f64;
+}
+
+/// A model of the viscous force and torque across the line of centres.
+pub trait TangentialDrag {
+    /// The resistance over the gap of one bridge.
+    type Curve: TangentialCurve;
+
+    /// Folds a bridge and the liquid's `viscosity` η (Pa s) into its resistance curve.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] unless the viscosity is positive and finite.
+    fn curve(&self, bridge: &Bridge, viscosity: f64) -> Result<Self::Curve, OutOfRange>;
+}
+
+/// The tangential resistance of one bridge as a function of the gap alone.
+pub trait TangentialCurve: Copy {
+    /// Resistance at `gap` (m, overlap negative); positive semi-definite and finite for every gap.
+    fn resistance(&self, gap: f64) -> Resistance;
+}
+
+/// Symmetric tangential resistance of a pair, N s/m.
+///
+/// With the slip u (relative velocity of the two surfaces, across the line of centres, lever arms
+/// l_i + l_j = distance of centres) and the rolling velocity q = R* (ω_i − ω_j) × n:
+///
+/// ```text
+/// F = −(A u + B q)     force on body i; torques l_i n × F on i, l_j n × F on j
+/// Q = −(B u + D q)     rolling force; torques R* n × Q on i, −R* n × Q on j
+/// ```
+///
+/// The power F·u + Q·q is never positive if A ≥ 0, D ≥ 0, A D ≥ B², and rigid rotation of the pair
+/// (u = q = 0) is untouched.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Resistance {
+    /// A: slip to force.
+    pub slip: f64,
+    /// B: the coupling of slip and rolling.
+    pub coupling: f64,
+    /// D: rolling to rolling force.
+    pub rolling: f64,
+}
