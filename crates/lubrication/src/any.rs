@@ -1,0 +1,178 @@
+use std::str::FromStr;
+
+use pendular_pair::{Bridge, OutOfRange};
+
+use crate::adams_perchard_1985::AdamsPerchard1985Curve;
+use crate::pitois_2000::Pitois2000Curve;
+use crate::popov_2010::Popov2010Curve;
+use crate::{
+    AdamsPerchard1985, NormalCurve, NormalDrag, Pitois2000, Popov2010, Regularisation, Resistance,
+    TangentialCurve, TangentialDrag,
+};
+
+/// A name that no drag law has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("unknown drag law {name:?}: expected one of {}", known.join(", "))]
+pub struct UnknownDrag {
+    /// What was asked for.
+    pub name: String,
+    /// The names there are.
+    pub known: &'static [&'static str],
+}
+
+/// Defines, for one kind of drag: the names, the law chosen at run time and its curve.
+macro_rules! any_drag {
+    (
+        $kind:literal, $model:ident, $any:ident: $drag:ident, $any_curve:ident: $curve:ident,
+        $($name:literal => $law:ident, $law_curve:ident;)+
+    ) => {
+        #[doc = concat!("The ", $kind, " drag laws by name. Text and serde form are the names of [`Self::NAMES`].")]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        pub enum $model {
+            $(
+                #[doc = concat!("`", $name, "`: [`", stringify!($law), "`].")]
+                #[cfg_attr(feature = "serde", serde(rename = $name))]
+                $law,
+            )+
+        }
+
+        impl $model {
+            /// Every law.
+            pub const ALL: &'static [Self] = &[$(Self::$law),+];
+            /// Every law's name, in the order of [`Self::ALL`].
+            pub const NAMES: &'static [&'static str] = &[$($name),+];
+
+            /// The law's name.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$law => $name),+ }
+            }
+
+            /// The law with its gap and overlap treatment.
+            #[must_use]
+            pub fn with(self, near: Regularisation) -> $any {
+                match self { $(Self::$law => $any::$law($law { near })),+ }
+            }
+        }
+
+        impl FromStr for $model {
+            type Err = UnknownDrag;
+
+            fn from_str(name: &str) -> Result<Self, UnknownDrag> {
+                let found = Self::ALL.iter().find(|model| model.name() == name);
+                found.copied().ok_or(UnknownDrag { name: name.into(), known: Self::NAMES })
+            }
+        }
+
+        impl std::fmt::Display for $model {
+            fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                out.write_str(self.name())
+            }
+        }
+
+        #[doc = concat!("A ", $kind, " drag law chosen at run time.")]
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum $any {
+            $(
+                #[doc = concat!("`", $name, "`.")]
+                $law($law),
+            )+
+        }
+
+        impl $any {
+            /// Which law it is.
+            #[must_use]
+            pub fn model(&self) -> $model {
+                match self { $(Self::$law(_) => $model::$law),+ }
+            }
+
+            /// Its gap and overlap treatment.
+            #[must_use]
+            pub fn near(&self) -> Regularisation {
+                match self { $(Self::$law(law) => law.near),+ }
+            }
+        }
+
+        impl $drag for $any {
+            type Curve = $any_curve;
+
+            fn curve(&self, bridge: &Bridge, viscosity: f64) -> Result<$any_curve, OutOfRange> {
+                Ok(match self {
+                    $(Self::$law(law) => $any_curve::$law(law.curve(bridge, viscosity)?)),+
+                })
+            }
+        }
+
+        #[doc = concat!("The curve of [`", stringify!($any), "`].")]
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum $any_curve {
+            $(
+                #[doc = concat!("`", $name, "`.")]
+                $law($law_curve),
+            )+
+        }
+    };
+}
+
+any_drag! {
+    "normal", NormalModel, AnyNormalDrag: NormalDrag, AnyNormalCurve: NormalCurve,
+    "adams-perchard" => AdamsPerchard1985, AdamsPerchard1985Curve;
+    "pitois" => Pitois2000, Pitois2000Curve;
+}
+
+any_drag! {
+    "tangential", TangentialModel, AnyTangentialDrag: TangentialDrag,
+    AnyTangentialCurve: TangentialCurve,
+    "popov" => Popov2010, Popov2010Curve;
+}
+
+impl NormalCurve for AnyNormalCurve {
+    #[inline]
+    fn coefficient(&self, gap: f64) -> f64 {
+        match self {
+            Self::AdamsPerchard1985(curve) => curve.coefficient(gap),
+            Self::Pitois2000(curve) => curve.coefficient(gap),
+        }
+    }
+
+    #[inline]
+    fn impulse(&self, gap: f64) -> f64 {
+        match self {
+            Self::AdamsPerchard1985(curve) => curve.impulse(gap),
+            Self::Pitois2000(curve) => curve.impulse(gap),
+        }
+    }
+}
+
+impl TangentialCurve for AnyTangentialCurve {
+    #[inline]
+    fn resistance(&self, gap: f64) -> Resistance {
+        match self {
+            Self::Popov2010(curve) => curve.resistance(gap),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_go_both_ways() {
+        for model in NormalModel::ALL {
+            assert_eq!(model.name().parse(), Ok(*model));
+            assert_eq!(model.with(Regularisation::default()).model(), *model);
+        }
+        for model in TangentialModel::ALL {
+            assert_eq!(model.name().parse(), Ok(*model));
+            assert_eq!(model.with(Regularisation::default()).model(), *model);
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_lists_the_known_ones() {
+        let said = "adams".parse::<NormalModel>().unwrap_err().to_string();
+        assert!(said.contains("\"adams\"") && said.contains("adams-perchard, pitois"), "{said}");
+    }
+}
