@@ -4,6 +4,7 @@
 //! everything that is constant over the bridge's life folded once.
 
 mod law;
+pub mod young_laplace;
 
 pub use law::{CapillaryLaw, ForceCurve};
 pub use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
