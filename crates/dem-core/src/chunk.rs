@@ -1,0 +1,114 @@
+//! A chunk: a fixed run of slots and everything that is computed for them.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use glam::DVec3;
+
+use crate::lists::PairList;
+use crate::{Pair, Touch};
+
+/// Force and torque on one particle.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sum {
+    pub(crate) force: DVec3,
+    pub(crate) torque: DVec3,
+}
+
+/// What rolling friction needs of one particle: in a read the braking torque and the number of
+/// contacts; between reads the spin that the other torques gave in the last step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Roll {
+    pub(crate) spin: DVec3,
+    pub(crate) contacts: f64,
+}
+
+/// One smooth piece of a wall part that a particle touches, and what the term remembers of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Memory<C> {
+    /// Normal at the last read: it tells which touch this was, whatever triangle carried it.
+    pub(crate) normal: DVec3,
+    pub(crate) column: C,
+}
+
+/// A particle near a wall part.
+#[derive(Debug, Clone)]
+pub(crate) struct WallPair<C> {
+    pub(crate) slot: u32,
+    pub(crate) part: u32,
+    /// Where the candidates lie in the chunk's pool.
+    pub(crate) candidates: Range<usize>,
+    pub(crate) memories: Vec<Memory<C>>,
+}
+
+/// Which list an entry stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum List {
+    Inside,
+    Across,
+    Wall { memory: u32 },
+}
+
+/// A pair that wants attention, and where its column is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Note {
+    pub(crate) pair: Pair,
+    pub(crate) list: List,
+    pub(crate) index: u32,
+}
+
+/// A run of slots with its lists, its sums and its scratch space.
+#[derive(Debug)]
+pub(crate) struct Chunk<C> {
+    pub(crate) range: Range<u32>,
+    pub(crate) inside: PairList<C>,
+    pub(crate) across: PairList<C>,
+    pub(crate) walls: Vec<WallPair<C>>,
+    pub(crate) pool: Vec<u32>,
+    pub(crate) sums: Vec<Sum>,
+    pub(crate) rolls: Vec<Roll>,
+    pub(crate) notes: Vec<Note>,
+    pub(crate) touches: Vec<Touch>,
+    pub(crate) memories: Vec<Memory<C>>,
+    /// Largest overlap over the smaller radius so far.
+    pub(crate) overlap: f64,
+    pub(crate) pair_time: Duration,
+    pub(crate) wall_time: Duration,
+}
+
+impl<C: Copy + Default> Chunk<C> {
+    pub(crate) fn new(range: Range<u32>, rolls: bool) -> Self {
+        let slots = range.len();
+        Self {
+            range,
+            inside: PairList::default(),
+            across: PairList::default(),
+            walls: Vec::new(),
+            pool: Vec::new(),
+            sums: vec![Sum::default(); slots],
+            rolls: vec![Roll::default(); if rolls { slots } else { 0 }],
+            notes: Vec::new(),
+            touches: Vec::new(),
+            memories: Vec::new(),
+            overlap: 0.0,
+            pair_time: Duration::ZERO,
+            wall_time: Duration::ZERO,
+        }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.sums.fill(Sum::default());
+        self.rolls.fill(Roll::default());
+        self.notes.clear();
+    }
+
+    /// The column that a note is about.
+    pub(crate) fn column(&mut self, list: List, index: u32) -> &mut C {
+        let index = index as usize;
+        match list {
+            List::Inside => &mut self.inside.columns[index],
+            List::Across => &mut self.across.columns[index],
+            List::Wall { memory } => &mut self.walls[index].memories[memory as usize].column,
+        }
+    }
+}

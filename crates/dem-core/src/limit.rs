@@ -1,0 +1,122 @@
+//! The longest stable time step of a packing.
+
+use crate::Class;
+
+/// Contacts that a sphere of the smallest class is taken to have (fcc packing).
+const CONTACTS: f64 = 12.0;
+/// Share of the formula's limit that holds for springs and dashpots in every packing measured.
+const SAFETY: f64 = 0.9;
+/// The same where explicit viscous drag prevails.
+const SAFETY_VISCOUS: f64 = 0.7;
+
+/// The strongest pair that a class can be part of.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Normal stiffness k_n, N/m.
+    pub normal_stiffness: f64,
+    /// Tangential stiffness k_t, N/m.
+    pub tangential_stiffness: f64,
+    /// Normal damping c_n of dashpots, N s/m.
+    pub normal_damping: f64,
+    /// Tangential damping c_t of dashpots, N s/m.
+    pub tangential_damping: f64,
+    /// Normal viscous drag, N s/m.
+    pub normal_drag: f64,
+    /// Tangential viscous drag, N s/m.
+    pub tangential_drag: f64,
+}
+
+impl std::ops::Add for Load {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            normal_stiffness: self.normal_stiffness + other.normal_stiffness,
+            tangential_stiffness: self.tangential_stiffness + other.tangential_stiffness,
+            normal_damping: self.normal_damping + other.normal_damping,
+            tangential_damping: self.tangential_damping + other.tangential_damping,
+            normal_drag: self.normal_drag + other.normal_drag,
+            tangential_drag: self.tangential_drag + other.tangential_drag,
+        }
+    }
+}
+
+/// The longest time step and what sets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Longest time step, s, safety included; `f64::INFINITY` if nothing limits it.
+    pub time_step: f64,
+    /// Index of the class that limits it.
+    pub class: usize,
+    /// `contact springs and dashpots` or `viscous drag`.
+    pub term: &'static str,
+}
+
+/// The limit of a packing in which every sphere has twelve contacts of its strongest kind.
+///
+/// ```text
+/// Λ_K = 2 (z/m) max((k_n + 2 k_t)/3, 5 k_t/3)   likewise Λ_C;   h = (√(Λ_C² + 4 Λ_K) − Λ_C)/Λ_K
+/// ```
+///
+/// An isotropic neighbourhood of z contacts makes the eigenvalue bound of a sphere's own stiffness
+/// block explicit; it lies within 10 % of the exact limit of real packings where formulas for one
+/// pair are 1.4 to 2.4 times too large.
+pub(crate) fn packing(classes: &[Class], loads: &[Load]) -> Limit {
+    let mut least = Limit { time_step: f64::INFINITY, class: 0, term: "nothing" };
+    for (class, (kind, load)) in classes.iter().zip(loads).enumerate() {
+        let lambda = |n: f64, t: f64| {
+            2.0 * CONTACTS / kind.mass() * ((n + 2.0 * t) / 3.0).max(5.0 * t / 3.0)
+        };
+        let stiff = lambda(load.normal_stiffness, load.tangential_stiffness);
+        let dashpot = lambda(load.normal_damping, load.tangential_damping);
+        let drag = lambda(load.normal_drag, load.tangential_drag);
+        let (safety, term) = if drag * drag > 4.0 * stiff {
+            (SAFETY_VISCOUS, "viscous drag")
+        } else {
+            (SAFETY, "contact springs and dashpots")
+        };
+        let time_step = safety * longest(stiff, dashpot + drag);
+        if time_step < least.time_step {
+            least = Limit { time_step, class, term };
+        }
+    }
+    least
+}
+
+/// h with h² Λ_K + h Λ_C = 4 … written without cancellation where damping prevails.
+fn longest(stiff: f64, damp: f64) -> f64 {
+    if stiff == 0.0 && damp == 0.0 {
+        return f64::INFINITY;
+    }
+    4.0 / ((damp * damp + 4.0 * stiff).sqrt() + damp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pom_example_of_twelve_contacts() {
+        // POM, d = 3 mm, k_n = 1e5 N/m, k_t/k_n = 0.788: 4.9e-6 s undamped, before safety.
+        let class = Class::new(1.5e-3, 1357.0, 0).unwrap();
+        let load = Load { normal_stiffness: 1e5, tangential_stiffness: 0.788e5, ..Load::default() };
+        let limit = packing(&[class], &[load]).time_step / SAFETY;
+        assert!((limit - 4.9e-6).abs() < 0.1e-6, "{limit:e}");
+    }
+
+    #[test]
+    fn damping_alone_and_stiffness_alone() {
+        assert!((longest(4.0, 0.0) - 1.0).abs() < 1e-15);
+        assert!((longest(0.0, 4.0) - 0.5).abs() < 1e-15);
+        assert_eq!(longest(0.0, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn viscous_drag_is_named() {
+        let class = Class::new(1.5e-3, 1357.0, 0).unwrap();
+        let dry = Load { normal_stiffness: 1e5, ..Load::default() };
+        let wet = Load { normal_drag: 100.0, ..dry };
+        assert_eq!(packing(&[class], &[dry]).term, "contact springs and dashpots");
+        assert_eq!(packing(&[class], &[wet]).term, "viscous drag");
+    }
+}

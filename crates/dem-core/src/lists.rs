@@ -1,0 +1,142 @@
+//! The pair lists that a chunk owns.
+
+use std::ops::Range;
+
+use crate::grid::Grid;
+use crate::particles::{Particles, Place};
+
+/// Two slots; the particle with the lower id comes first, in whatever list the pair stands.
+pub(crate) type Entry = [u32; 2];
+
+/// Pairs on two levels: `outer` within the skin, and of them `active` so near that they may act
+/// before the next pruning. History lives beside `active`.
+#[derive(Debug)]
+pub(crate) struct PairList<C> {
+    pub(crate) outer: Vec<Entry>,
+    pub(crate) active: Vec<Entry>,
+    pub(crate) columns: Vec<C>,
+}
+
+impl<C> Default for PairList<C> {
+    fn default() -> Self {
+        Self { outer: Vec::new(), active: Vec::new(), columns: Vec::new() }
+    }
+}
+
+/// What orders a list, and so the sums: the chunk's own slot, then the other; inside a chunk the
+/// lower slot first.
+pub(crate) fn key(entry: Entry, range: &Range<u32>) -> u64 {
+    let [a, b] = entry;
+    let (mine, other) = match (range.contains(&a), range.contains(&b)) {
+        (true, true) => (a.min(b), a.max(b)),
+        (true, false) => (a, b),
+        (false, _) => (b, a),
+    };
+    u64::from(mine) << 32 | u64::from(other)
+}
+
+/// Gap of the two particles of an entry, m.
+pub(crate) fn gap(places: &[Place], [a, b]: Entry) -> f64 {
+    let (p, q) = (&places[a as usize], &places[b as usize]);
+    (q.x - p.x).length() - (p.r + q.r)
+}
+
+impl<C: Copy + Default> PairList<C> {
+    /// Renews `active`: outer pairs with a gap of at most `reach`, and all live ones.
+    pub(crate) fn prune(
+        &mut self,
+        places: &[Place],
+        range: &Range<u32>,
+        reach: f64,
+        live: impl Fn(&C) -> bool,
+    ) {
+        let (old, old_columns) =
+            (std::mem::take(&mut self.active), std::mem::take(&mut self.columns));
+        self.active.reserve(old.len() + old.len() / 8);
+        self.columns.reserve(old.len() + old.len() / 8);
+        let mut carried = old.into_iter().zip(old_columns).peekable();
+        for &entry in &self.outer {
+            let at = key(entry, range);
+            let mut column = None;
+            while let Some((earlier, c)) = carried.next_if(|(e, _)| key(*e, range) <= at) {
+                if earlier == entry {
+                    column = Some(c);
+                } else if live(&c) {
+                    self.active.push(earlier);
+                    self.columns.push(c);
+                }
+            }
+            let keep = column.as_ref().is_some_and(&live) || gap(places, entry) <= reach;
+            if keep {
+                self.active.push(entry);
+                self.columns.push(column.unwrap_or_default());
+            }
+        }
+        for (entry, c) in carried.filter(|(_, c)| live(c)) {
+            self.active.push(entry);
+            self.columns.push(c);
+        }
+    }
+}
+
+/// Finds the outer pairs of the slots in `range`: those inside it once, those across its border.
+pub(crate) fn find<C>(
+    particles: &Particles,
+    grid: &Grid,
+    range: &Range<u32>,
+    reach: f64,
+    inside: &mut PairList<C>,
+    across: &mut PairList<C>,
+) {
+    inside.outer.clear();
+    across.outer.clear();
+    let (places, id) = (&particles.places, &particles.id);
+    let mut near: Vec<u32> = Vec::with_capacity(64);
+    for i in range.clone() {
+        let p = places[i as usize];
+        near.clear();
+        grid.around(p.x, |j| {
+            let ours = range.contains(&j);
+            if ours && j <= i {
+                return;
+            }
+            let q = &places[j as usize];
+            let sum = p.r + q.r + reach;
+            if (q.x - p.x).length_squared() <= sum * sum {
+                near.push(j);
+            }
+        });
+        near.sort_unstable();
+        for &j in &near {
+            let entry = if id[i as usize] < id[j as usize] { [i, j] } else { [j, i] };
+            let list = if range.contains(&j) { &mut inside.outer } else { &mut across.outer };
+            list.push(entry);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn row(n: u32) -> Vec<Place> {
+        (0..n).map(|i| Place { x: DVec3::new(f64::from(i) * 2.5, 0.0, 0.0), r: 1.0 }).collect()
+    }
+
+    #[test]
+    fn pruning_keeps_near_and_live_pairs_in_order() {
+        let places = row(6);
+        let mut list = PairList {
+            outer: vec![[0, 1], [1, 2], [4, 5]],
+            active: vec![[0, 1], [0, 3], [1, 2], [2, 5]],
+            columns: vec![1, 7, 0, 0],
+        };
+        list.prune(&places, &(0..6), 0.4, |&c| c != 0);
+        // No pair is within 0.4: only the live ones stay, also the one that is in no outer list.
+        assert_eq!((list.active.clone(), list.columns.clone()), (vec![[0, 1], [0, 3]], vec![1, 7]));
+        list.prune(&places, &(0..6), 0.6, |&c| c != 0);
+        assert_eq!(list.active, vec![[0, 1], [0, 3], [1, 2], [4, 5]]);
+        assert_eq!(list.columns, vec![1, 7, 0, 0]);
+    }
+}

@@ -1,0 +1,224 @@
+//! When lists are renewed, and how columns find their new places.
+
+use std::time::Instant;
+
+use glam::DVec3;
+
+use super::{Settings, Simulation, each};
+use crate::chunk::{Memory, WallPair};
+use crate::grid::Grid;
+use crate::lists;
+use crate::particles::{Class, Particles};
+use crate::{Boundary, PairTerm, wall_pass};
+
+/// How far bodies may still move before a list can miss a pair.
+///
+/// Each budget is the sum over steps of the largest speed times the step: it can only
+/// overestimate what a pair's gap has changed.
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) chunk_size: usize,
+    pub(super) classes: Vec<Class>,
+    pub(super) overlap: f64,
+    skin: f64,
+    inner_skin: f64,
+    outer: f64,
+    inner: f64,
+    walls: f64,
+    reach: f64,
+    wall_reach: f64,
+    built_at: Vec<DVec3>,
+}
+
+impl State {
+    pub(super) fn new(particles: &Particles, settings: &Settings) -> Self {
+        let classes = particles.classes().to_vec();
+        let smallest = classes.iter().fold(f64::INFINITY, |r, class| r.min(class.radius()));
+        let smallest = if smallest.is_finite() { smallest } else { 1.0 };
+        let skin = settings.skin.unwrap_or(0.2 * smallest);
+        Self {
+            chunk_size: 1,
+            classes,
+            overlap: 0.0,
+            skin,
+            inner_skin: settings.inner_skin.unwrap_or(0.02 * smallest).min(skin),
+            outer: f64::INFINITY,
+            inner: f64::INFINITY,
+            walls: f64::INFINITY,
+            reach: 0.0,
+            wall_reach: 0.0,
+            built_at: Vec::new(),
+        }
+    }
+
+    /// All lists are void: the particles stand in a new order.
+    pub(super) fn renew(&mut self, particles: &Particles, chunk_size: usize) {
+        self.chunk_size = chunk_size;
+        self.built_at = vec![DVec3::ZERO; particles.len()];
+        (self.outer, self.inner, self.walls) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    }
+
+    /// A step was made: no particle moved farther than `particle` m, no wall farther than `wall`.
+    pub(super) fn travel(&mut self, particle: f64, wall: f64) {
+        self.outer += 2.0 * particle;
+        self.inner += 2.0 * particle;
+        self.walls += particle + wall;
+    }
+}
+
+impl<T: PairTerm, B: Boundary> Simulation<T, B> {
+    /// Renews whatever list can no longer be trusted in the coming step.
+    pub(super) fn refresh(&mut self) {
+        let reach = self.term.reach();
+        let lists = &self.lists;
+        let grown = (reach - lists.reach).max(0.0);
+        let stale = lists.outer + grown > lists.skin;
+        let prune = stale || lists.inner + grown > lists.inner_skin;
+        let wall_stale = lists.walls + (reach - lists.wall_reach).max(0.0) > lists.skin;
+        if !(stale || prune || wall_stale) {
+            return;
+        }
+        let start = Instant::now();
+        if stale && !self.still_good(grown) {
+            self.build(reach);
+        }
+        if prune {
+            self.prune(reach);
+        }
+        if wall_stale {
+            self.find_walls(reach);
+        }
+        self.profile.neighbours += start.elapsed();
+    }
+
+    /// Whether the true displacements since the last build, the common one taken out, allow to
+    /// keep the outer lists for some time; if so, the budget is set to them.
+    fn still_good(&mut self, grown: f64) -> bool {
+        let lists = &mut self.lists;
+        if !lists.outer.is_finite() {
+            return false;
+        }
+        let moved = || self.particles.places.iter().zip(&lists.built_at).map(|(p, x)| p.x - x);
+        let low = moved().fold(DVec3::INFINITY, DVec3::min);
+        let high = moved().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = 0.5 * (low + high);
+        let most = moved().fold(0.0_f64, |most, d| most.max((d - centre).length_squared()));
+        let bound = 2.0 * most.sqrt();
+        let good = bound + grown < 0.75 * lists.skin;
+        if good {
+            lists.outer = bound;
+        }
+        good
+    }
+
+    fn build(&mut self, reach: f64) {
+        let range = reach + self.lists.skin;
+        let grid = Grid::new(&self.particles.places, range);
+        let particles = &self.particles;
+        each(&mut self.chunks, |chunk| {
+            let (inside, across) = (&mut chunk.inside, &mut chunk.across);
+            lists::find(particles, &grid, &chunk.range, range, inside, across);
+        });
+        let lists = &mut self.lists;
+        lists.built_at.iter_mut().zip(&particles.places).for_each(|(at, place)| *at = place.x);
+        (lists.outer, lists.reach) = (0.0, reach);
+        self.profile.builds += 1;
+    }
+
+    fn prune(&mut self, reach: f64) {
+        let range = reach + self.lists.inner_skin;
+        let (places, term) = (&self.particles.places, &self.term);
+        each(&mut self.chunks, |chunk| {
+            let live = |column: &T::Column| term.live(column);
+            chunk.inside.prune(places, &chunk.range, range, live);
+            chunk.across.prune(places, &chunk.range, range, live);
+        });
+        self.lists.inner = 0.0;
+        self.profile.prunes += 1;
+    }
+
+    fn find_walls(&mut self, reach: f64) {
+        let range = reach + self.lists.skin;
+        let (places, term, boundary) = (&self.particles.places, &self.term, &self.boundary);
+        each(&mut self.chunks, |chunk| {
+            wall_pass::find(term, boundary, places, range, chunk);
+        });
+        (self.lists.walls, self.lists.wall_reach) = (0.0, reach);
+    }
+}
+
+/// All live columns, by the ids of their bodies, while the particles change their order.
+pub(super) struct Carried<C> {
+    pairs: Vec<([u32; 2], C)>,
+    walls: Vec<(u32, u32, Vec<Memory<C>>, Vec<u32>)>,
+}
+
+impl<C: Copy + Default + Send + Sync> Carried<C> {
+    pub(super) fn collect<T: PairTerm<Column = C>, B>(
+        simulation: &mut Simulation<T, B>,
+        leaving: &[u32],
+    ) -> Self {
+        let (id, term) = (&simulation.particles.id, &simulation.term);
+        let stays = |slot: u32| leaving.binary_search(&slot).is_err();
+        let (mut pairs, mut walls) = (Vec::new(), Vec::new());
+        for chunk in &mut simulation.chunks {
+            let (inside, across) = (&chunk.inside, &chunk.across);
+            let inside = inside.active.iter().zip(&inside.columns);
+            let across = across.active.iter().zip(&across.columns);
+            let ours = across.filter(|(entry, _)| chunk.range.contains(&entry[0]));
+            for (entry, column) in inside.chain(ours) {
+                if term.live(column) && entry.iter().all(|&slot| stays(slot)) {
+                    pairs.push((entry.map(|slot| id[slot as usize]), *column));
+                }
+            }
+            let pool = &chunk.pool;
+            for wall in chunk.walls.drain(..).filter(|wall| stays(wall.slot)) {
+                let candidates = pool[wall.candidates.clone()].to_vec();
+                walls.push((id[wall.slot as usize], wall.part, wall.memories, candidates));
+            }
+        }
+        Self { pairs, walls }
+    }
+
+    /// Puts the columns into the lists of the new chunks; the lists' order is restored.
+    pub(super) fn hand_out<T: PairTerm<Column = C>, B>(self, simulation: &mut Simulation<T, B>) {
+        let size = simulation.lists.chunk_size as u32;
+        let mut slot_of = vec![u32::MAX; simulation.particles.created as usize];
+        for (slot, &id) in simulation.particles.id.iter().enumerate() {
+            slot_of[id as usize] = slot as u32;
+        }
+        let mut inside: Vec<Vec<_>> = simulation.chunks.iter().map(|_| Vec::new()).collect();
+        let mut across = inside.clone();
+        for (ids, column) in self.pairs {
+            let entry = ids.map(|id| slot_of[id as usize]);
+            let [a, b] = entry.map(|slot| (slot / size) as usize);
+            if a == b {
+                inside[a].push((entry, column));
+            } else {
+                across[a].push((entry, column));
+                across[b].push((entry, column));
+            }
+        }
+        let chunks = &mut simulation.chunks;
+        for ((chunk, inside), across) in chunks.iter_mut().zip(inside).zip(across) {
+            for (list, mut pairs) in
+                [(&mut chunk.inside, inside), (&mut chunk.across, across)]
+            {
+                pairs.sort_unstable_by_key(|(entry, _)| lists::key(*entry, &chunk.range));
+                (list.active, list.columns) = pairs.into_iter().unzip();
+            }
+        }
+        let mut walls: Vec<_> = self
+            .walls
+            .into_iter()
+            .map(|(id, part, memories, near)| (slot_of[id as usize], part, memories, near))
+            .collect();
+        walls.sort_unstable_by_key(|&(slot, part, ..)| (slot, part));
+        for (slot, part, memories, near) in walls {
+            let chunk = &mut chunks[(slot / size) as usize];
+            let candidates = chunk.pool.len()..chunk.pool.len() + near.len();
+            chunk.pool.extend(near);
+            chunk.walls.push(WallPair { slot, part, candidates, memories });
+        }
+    }
+}

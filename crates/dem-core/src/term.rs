@@ -1,0 +1,185 @@
+use crate::limit;
+use crate::{Class, Encounter, Load, Pair};
+
+/// Any error of a term.
+pub type TermError = Box<dyn std::error::Error + Send + Sync>;
+
+/// A pair that asked for attention, or is about to end.
+#[derive(Debug, Clone, Copy)]
+pub struct Visit<C> {
+    /// The pair as it was read.
+    pub pair: Pair,
+    /// The term's column of the pair; what is left here is written back.
+    pub column: C,
+    /// The pair ends after this visit: a body leaves the scene, or a wall part is taken away.
+    pub ending: bool,
+}
+
+/// One kind of interaction of two bodies: a contact, a bridge, both as a tuple, or `()`.
+///
+/// A term keeps its history of a pair in a *column* that travels with the pair. The read half may
+/// change only that column; what pairs share changes in [`PairTerm::settle`].
+pub trait PairTerm: Send + Sync {
+    /// What the term remembers of one pair. The default is "nothing yet".
+    type Column: Copy + Default + Send + Sync;
+
+    /// Largest gap, m, at which a pair without history may act. May change from step to step.
+    fn reach(&self) -> f64;
+
+    /// Whether nothing acts in this pair; an idle pair's column is brought to rest here.
+    fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool;
+
+    /// Read half: what acts in this pair. Pure but for the pair's own column.
+    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load;
+
+    /// Whether the column must not be lost, whatever the gap.
+    fn live(&self, column: &Self::Column) -> bool;
+
+    /// Write half: settles all pairs that asked for attention, in the order of their keys.
+    ///
+    /// # Errors
+    /// Whatever the term cannot do; the simulation stops with it.
+    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        let _ = visits;
+        Ok(())
+    }
+
+    /// Moves to the particle's nearest touch with a wall part what belongs to the part as a whole.
+    fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
+        let _ = (from, to);
+    }
+
+    /// Whether the term uses rolling friction, so that the core keeps what that needs.
+    fn rolls(&self) -> bool {
+        false
+    }
+
+    /// The stiffest and most viscous pair that each class can be part of.
+    fn stability(&self, classes: &[Class]) -> Vec<limit::Load>;
+}
+
+/// No interaction at all.
+impl PairTerm for () {
+    type Column = ();
+
+    fn reach(&self) -> f64 {
+        0.0
+    }
+
+    fn idle(&self, _: &Encounter, (): &mut ()) -> bool {
+        true
+    }
+
+    fn load(&self, _: &Pair, (): &mut ()) -> Load {
+        Load::default()
+    }
+
+    fn live(&self, (): &()) -> bool {
+        false
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
+        vec![limit::Load::default(); classes.len()]
+    }
+}
+
+/// Two terms act together; their columns lie side by side.
+impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
+    type Column = (A::Column, B::Column);
+
+    fn reach(&self) -> f64 {
+        self.0.reach().max(self.1.reach())
+    }
+
+    #[inline]
+    fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
+        // No short circuit: each brings its own column to rest.
+        self.0.idle(encounter, &mut column.0) & self.1.idle(encounter, &mut column.1)
+    }
+
+    #[inline]
+    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
+        self.0.load(pair, &mut column.0) + self.1.load(pair, &mut column.1)
+    }
+
+    #[inline]
+    fn live(&self, column: &Self::Column) -> bool {
+        self.0.live(&column.0) || self.1.live(&column.1)
+    }
+
+    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        let mut first: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
+        self.0.settle(&mut first)?;
+        let mut second: Vec<_> = visits.iter().map(|v| v.part(v.column.1)).collect();
+        self.1.settle(&mut second)?;
+        for ((visit, a), b) in visits.iter_mut().zip(first).zip(second) {
+            visit.column = (a.column, b.column);
+        }
+        Ok(())
+    }
+
+    fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
+        self.0.hand_on(&mut from.0, &mut to.0);
+        self.1.hand_on(&mut from.1, &mut to.1);
+    }
+
+    fn rolls(&self) -> bool {
+        self.0.rolls() || self.1.rolls()
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
+        let (a, b) = (self.0.stability(classes), self.1.stability(classes));
+        a.into_iter().zip(b).map(|(a, b)| a + b).collect()
+    }
+}
+
+/// A term that may be absent: `None` acts in no pair.
+impl<T: PairTerm> PairTerm for Option<T> {
+    type Column = T::Column;
+
+    fn reach(&self) -> f64 {
+        self.as_ref().map_or(0.0, T::reach)
+    }
+
+    #[inline]
+    fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
+        self.as_ref().is_none_or(|term| term.idle(encounter, column))
+    }
+
+    #[inline]
+    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
+        self.as_ref().map_or_else(Load::default, |term| term.load(pair, column))
+    }
+
+    #[inline]
+    fn live(&self, column: &Self::Column) -> bool {
+        self.as_ref().is_some_and(|term| term.live(column))
+    }
+
+    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        self.as_mut().map_or(Ok(()), |term| term.settle(visits))
+    }
+
+    fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
+        if let Some(term) = self {
+            term.hand_on(from, to);
+        }
+    }
+
+    fn rolls(&self) -> bool {
+        self.as_ref().is_some_and(T::rolls)
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
+        match self {
+            Some(term) => term.stability(classes),
+            None => ().stability(classes),
+        }
+    }
+}
+
+impl<C> Visit<C> {
+    fn part<D>(&self, column: D) -> Visit<D> {
+        Visit { pair: self.pair, column, ending: self.ending }
+    }
+}

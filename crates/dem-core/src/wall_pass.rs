@@ -1,0 +1,235 @@
+//! The read half between particles and walls, and the lists it works on.
+
+use std::time::Instant;
+
+use glam::DVec3;
+
+use crate::chunk::{Chunk, List, Memory, Note, WallPair};
+use crate::particles::Place;
+use crate::pass::{View, add, roll};
+use crate::{Boundary, Encounter, Pair, PairTerm, Partner, Touch};
+
+/// Two touches of one part whose normals differ by less than this cosine are the same touch.
+const SAME: f64 = 0.8;
+
+/// Loads all wall pairs of a chunk.
+pub(crate) fn read<T: PairTerm, B: Boundary, const ROLLS: bool>(
+    view: &View<'_>,
+    term: &T,
+    boundary: &B,
+    chunk: &mut Chunk<T::Column>,
+) {
+    if chunk.walls.is_empty() {
+        return;
+    }
+    let start = Instant::now();
+    let reach = term.reach();
+    let mut walls = std::mem::take(&mut chunk.walls);
+    for (index, wall) in walls.iter_mut().enumerate() {
+        if boundary.is_present(wall.part) {
+            one::<T, B, ROLLS>(view, term, boundary, chunk, wall, index as u32, reach);
+        }
+    }
+    chunk.walls = walls;
+    chunk.wall_time += start.elapsed();
+}
+
+fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
+    view: &View<'_>,
+    term: &T,
+    boundary: &B,
+    chunk: &mut Chunk<T::Column>,
+    wall: &mut WallPair<T::Column>,
+    index: u32,
+    reach: f64,
+) {
+    let Place { x, r } = view.places[wall.slot as usize];
+    let live = wall.memories.iter().any(|m| term.live(&m.column));
+    let reach = if live { f64::INFINITY } else { reach };
+    let candidates = &chunk.pool[wall.candidates.clone()];
+    chunk.touches.clear();
+    boundary.touches(wall.part, candidates, x, r, reach, &mut chunk.touches);
+    if !live && !chunk.touches.iter().any(|t| t.gap <= reach) {
+        wall.memories.clear();
+        return;
+    }
+    remember(term, &chunk.touches, &mut wall.memories, &mut chunk.memories);
+    for (k, touch) in chunk.touches.iter().enumerate() {
+        let memory = &mut wall.memories[k];
+        let before = std::mem::replace(&mut memory.normal, touch.normal);
+        let encounter = Encounter {
+            first: view.id[wall.slot as usize],
+            second: Partner::Wall(wall.part),
+            element: touch.element,
+            nearest: k == 0,
+            gap: touch.gap,
+        };
+        if term.idle(&encounter, &mut memory.column) {
+            continue;
+        }
+        let pair = pair::<B, ROLLS>(view, boundary, wall.slot, encounter, touch, before);
+        let load = term.load(&pair, &mut memory.column);
+        let slot = (wall.slot - chunk.range.start) as usize;
+        add::<ROLLS>(&mut chunk.sums[slot], &load, &pair, 0);
+        if ROLLS && touch.gap < 0.0 {
+            roll(&mut chunk.rolls[slot], load.rolling);
+        }
+        chunk.overlap = chunk.overlap.max(-touch.gap / r);
+        if load.attention {
+            chunk.notes.push(Note { pair, list: List::Wall { memory: k as u32 }, index });
+        }
+    }
+}
+
+/// Gives each touch the memory of the old touch with the nearest normal, so that nothing is felt
+/// where one triangle ends and the next begins; what belongs to the part goes to the nearest one.
+fn remember<T: PairTerm>(
+    term: &T,
+    touches: &[Touch],
+    memories: &mut Vec<Memory<T::Column>>,
+    scratch: &mut Vec<Memory<T::Column>>,
+) {
+    scratch.clear();
+    for touch in touches {
+        let likeness = |m: &Memory<T::Column>| m.normal.dot(touch.normal);
+        let best = (0..memories.len())
+            .filter(|&k| likeness(&memories[k]) >= SAME)
+            .max_by(|&a, &b| likeness(&memories[a]).total_cmp(&likeness(&memories[b])));
+        scratch.push(match best {
+            Some(k) => memories.swap_remove(k),
+            None => Memory { normal: touch.normal, column: T::Column::default() },
+        });
+    }
+    if let Some((nearest, others)) = scratch.split_first_mut() {
+        for other in others.iter_mut().chain(memories.iter_mut()) {
+            term.hand_on(&mut other.column, &mut nearest.column);
+        }
+    }
+    std::mem::swap(memories, scratch);
+}
+
+/// A particle and a wall. The half-step normal is the mean of the last two: right on any shape.
+fn pair<B: Boundary, const ROLLS: bool>(
+    view: &View<'_>,
+    boundary: &B,
+    slot: u32,
+    encounter: Encounter,
+    touch: &Touch,
+    before: DVec3,
+) -> Pair {
+    let Partner::Wall(part) = encounter.second else { unreachable!("a wall pair") };
+    let slot = slot as usize;
+    let r = view.places[slot].r;
+    let v = &view.velocities[slot];
+    let velocity = v.v - boundary.velocity(part);
+    let half_step_normal = if before == touch.normal {
+        touch.normal
+    } else {
+        (before + touch.normal).normalize()
+    };
+    let along = velocity.dot(half_step_normal);
+    let mut pair = Pair {
+        encounter,
+        first_class: view.class[slot],
+        second_class: u16::from(boundary.material(part)),
+        radii: [r, f64::INFINITY],
+        normal: touch.normal,
+        half_step_normal,
+        separation_speed: -along,
+        slip: velocity - along * half_step_normal + (r * v.w).cross(half_step_normal),
+        spin: v.w,
+        expected_spin: DVec3::ZERO,
+        rolling_inertia: 0.0,
+        levers: [r, 0.0],
+        time_step: view.time_step,
+    };
+    if ROLLS {
+        let roll = &view.rolls[slot];
+        pair.expected_spin = v.w + roll.spin;
+        pair.rolling_inertia = view.inertia(slot) / roll.contacts;
+    }
+    pair
+}
+
+/// A wall pair that is about to end, for the term's last visit.
+pub(crate) fn ending<B: Boundary>(
+    view: &View<'_>,
+    boundary: &B,
+    wall: &WallPair<impl Copy>,
+    pool: &[u32],
+    touches: &mut Vec<Touch>,
+) -> Option<Pair> {
+    let Place { x, r } = view.places[wall.slot as usize];
+    touches.clear();
+    let candidates = &pool[wall.candidates.clone()];
+    boundary.touches(wall.part, candidates, x, r, f64::INFINITY, touches);
+    let touch = *touches.first()?;
+    let encounter = Encounter {
+        first: view.id[wall.slot as usize],
+        second: Partner::Wall(wall.part),
+        element: touch.element,
+        nearest: true,
+        gap: touch.gap,
+    };
+    Some(pair::<B, false>(view, boundary, wall.slot, encounter, &touch, touch.normal))
+}
+
+/// Renews a chunk's wall pairs: every part within `reach`, and every live pair at its own gap.
+pub(crate) fn find<T: PairTerm, B: Boundary>(
+    term: &T,
+    boundary: &B,
+    places: &[Place],
+    reach: f64,
+    chunk: &mut Chunk<T::Column>,
+) {
+    let old = std::mem::take(&mut chunk.walls);
+    let old_pool = std::mem::take(&mut chunk.pool);
+    let mut carried = old.into_iter().peekable();
+    let mut parts = Vec::new();
+    for slot in chunk.range.clone() {
+        let Place { x, r } = places[slot as usize];
+        parts.clear();
+        boundary.near(x, r + reach, &mut parts);
+        let mut mine: Vec<_> = Vec::new();
+        while let Some(wall) = carried.next_if(|w| w.slot == slot) {
+            mine.push(wall);
+        }
+        for wall in &mine {
+            let live = wall.memories.iter().any(|m| term.live(&m.column));
+            if live && !parts.contains(&wall.part) {
+                parts.push(wall.part);
+            }
+        }
+        parts.sort_unstable();
+        for &part in &parts {
+            let old = mine.iter_mut().find(|w| w.part == part);
+            let memories = old.map(|w| std::mem::take(&mut w.memories)).unwrap_or_default();
+            let live = memories.iter().any(|m| term.live(&m.column));
+            let start = chunk.pool.len();
+            let mut range = r + reach;
+            if live {
+                let before = mine.iter().find(|w| w.part == part);
+                let known = before.map_or(&[][..], |w| &old_pool[w.candidates.clone()]);
+                range += nearest(boundary, part, known, x, r, &mut chunk.touches).max(0.0);
+            }
+            boundary.candidates(part, x, range, &mut chunk.pool);
+            if chunk.pool.len() > start {
+                let candidates = start..chunk.pool.len();
+                chunk.walls.push(WallPair { slot, part, candidates, memories });
+            }
+        }
+    }
+}
+
+fn nearest<B: Boundary>(
+    boundary: &B,
+    part: u32,
+    candidates: &[u32],
+    x: DVec3,
+    r: f64,
+    touches: &mut Vec<Touch>,
+) -> f64 {
+    touches.clear();
+    boundary.touches(part, candidates, x, r, f64::INFINITY, touches);
+    touches.first().map_or(0.0, |t| t.gap)
+}
