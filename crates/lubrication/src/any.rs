@@ -3,11 +3,14 @@ use std::str::FromStr;
 use pendular_pair::{Bridge, OutOfRange};
 
 use crate::adams_perchard_1985::AdamsPerchard1985Curve;
+use crate::goldman_1967::Goldman1967Curve;
+use crate::jeffrey_onishi_1984::JeffreyOnishi1984Curve;
+use crate::lian_1998::Lian1998Curve;
 use crate::pitois_2000::Pitois2000Curve;
 use crate::popov_2010::Popov2010Curve;
 use crate::{
-    AdamsPerchard1985, NormalCurve, NormalDrag, Pitois2000, Popov2010, Regularisation, Resistance,
-    TangentialCurve, TangentialDrag,
+    AdamsPerchard1985, Goldman1967, JeffreyOnishi1984, Lian1998, NormalCurve, NormalDrag,
+    Pitois2000, Popov2010, Regularisation, Resistance, TangentialCurve, TangentialDrag,
 };
 
 /// A name that no drag law has.
@@ -125,6 +128,9 @@ any_drag! {
     "tangential", TangentialModel, AnyTangentialDrag: TangentialDrag,
     AnyTangentialCurve: TangentialCurve,
     "popov" => Popov2010, Popov2010Curve;
+    "lian" => Lian1998, Lian1998Curve;
+    "goldman" => Goldman1967, Goldman1967Curve;
+    "jeffrey-onishi" => JeffreyOnishi1984, JeffreyOnishi1984Curve;
 }
 
 impl NormalCurve for AnyNormalCurve {
@@ -150,6 +156,9 @@ impl TangentialCurve for AnyTangentialCurve {
     fn resistance(&self, gap: f64) -> Resistance {
         match self {
             Self::Popov2010(curve) => curve.resistance(gap),
+            Self::Lian1998(curve) => curve.resistance(gap),
+            Self::Goldman1967(curve) => curve.resistance(gap),
+            Self::JeffreyOnishi1984(curve) => curve.resistance(gap),
         }
     }
 }
