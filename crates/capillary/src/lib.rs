@@ -3,8 +3,35 @@
 //! Every law is a small value that turns a [`Bridge`] into a *curve*, the force over the gap, with
 //! everything that is constant over the bridge's life folded once.
 
+mod any;
+mod bagheri_2024;
+mod checked;
+mod lambert_2008;
 mod law;
+mod rabinovich_2005;
+mod rabinovich_plane;
+mod soulie_2006;
+mod weigert_1999;
+mod willett_2000_full;
+mod willett_2000_reduced;
 pub mod young_laplace;
 
+pub use any::{AnyCapillary, AnyCurve, LawInfo, LawKind, UnknownLaw};
+pub use bagheri_2024::{Bagheri2024, Bagheri2024Curve};
+pub use lambert_2008::{Lambert2008, Lambert2008Curve};
 pub use law::{CapillaryLaw, ForceCurve};
 pub use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
+pub use rabinovich_2005::{Rabinovich2005, Rabinovich2005Curve};
+pub use rabinovich_plane::{
+    RabinovichPlane, RabinovichPlaneSmallGap, RabinovichPlaneSmallGapCurve,
+};
+pub use soulie_2006::{Soulie2006, Soulie2006Curve};
+pub use weigert_1999::{Weigert1999, Weigert1999Curve};
+pub use willett_2000_full::{Willett2000Full, Willett2000FullCurve};
+pub use willett_2000_reduced::{Willett2000Reduced, Willett2000ReducedCurve};
+
+/// The particle-particle force of Israelachvili (2011), Intermolecular and Surface Forces, 3rd ed.,
+/// as in Krull, Strohner & Antonyuk (2025), eq. (25): [`Lambert2008`] written with R* = R/2.
+///
+/// Their particle-wall formula, eq. (26), is [`RabinovichPlane`] once its factor 8 is read as 4.
+pub use lambert_2008::Lambert2008 as Israelachvili2011;
