@@ -188,7 +188,8 @@ fn walk(solver: &Solver, low: Node, gap: f64) -> Option<State> {
     let mut step = 0.5 * (gap - low.gap);
     for _ in 0..200 {
         let next = (node.gap + step).min(gap);
-        let ratio = if node.gap > before.gap { (next - node.gap) / (node.gap - before.gap) } else { 0.0 };
+        let ratio =
+            if node.gap > before.gap { (next - node.gap) / (node.gap - before.gap) } else { 0.0 };
         let guess = [0, 1, 2].map(|k| node.state[k] + ratio * (node.state[k] - before.state[k]));
         let near = |found: &State| (0..3).all(|k| (found[k] - guess[k]).abs() < 0.2);
         match solver.at_gap(next, guess).filter(|s| near(s) && solver.stable(s)) {

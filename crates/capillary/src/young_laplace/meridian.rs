@@ -80,10 +80,7 @@ impl Problem {
         let half = (0.5 * state[0].exp()).sin();
         let second = self.contact_radii(state)[1];
         let cos = (1.0 - (self.curvature * second).powi(2)).max(0.0).sqrt();
-        [
-            4.0 * PI * (self.radius * half).powi(2),
-            2.0 * PI * second * second / (1.0 + cos),
-        ]
+        [4.0 * PI * (self.radius * half).powi(2), 2.0 * PI * second * second / (1.0 + cos)]
     }
 
     /// Axial distance over R of the point `t` from the first body's surface on the axis.

@@ -50,6 +50,8 @@ mod path;
 mod problem;
 mod rupture;
 mod solution;
+#[cfg(test)]
+mod tests;
 
 pub use error::SolveError;
 pub use exact::ExactBridge;

@@ -154,11 +154,7 @@ impl Solver {
             [a / scale, b / scale, c / scale, last]
         };
         let reach = self.reach();
-        Some([
-            row(0, 1.0, 0.0),
-            row(1, self.problem.volume, 0.0),
-            row(2, reach, -1.0),
-        ])
+        Some([row(0, 1.0, 0.0), row(1, self.problem.volume, 0.0), row(2, reach, -1.0)])
     }
 
     /// Positive while a symmetric bridge is stable against antisymmetric disturbances.
@@ -179,9 +175,8 @@ impl Solver {
         let mut stride = 0.05;
         for _ in 0..2000 {
             let lost = Lost::AtGap(last.node.gap);
-            let next = self.advance(&last, stride).filter(|next| {
-                dot(&next.tangent, &last.tangent) > 0.97
-            });
+            let next =
+                self.advance(&last, stride).filter(|next| dot(&next.tangent, &last.tangent) > 0.97);
             let Some(next) = next else {
                 stride *= 0.5;
                 if stride < 1e-9 {

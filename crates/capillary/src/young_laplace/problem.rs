@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn the_meridian_obeys_its_equation() {
         // dz/ds = i (1 + q z)
-        let state = [-1.0, 1.7, -0.4];
+        let state: State = [-1.0, 1.7, -0.4];
         let (length, q) = (state[2].exp(), state[1] / state[2].exp());
         let start = problem().start(state[0].exp());
         let at = |t| Problem::point(&state, start, t).z;
