@@ -171,7 +171,7 @@ impl Wire {
             (end, -out_of_end, along)
         } else {
             // Beyond an end and beside it: the rim is nearest.
-            let distance = (side * side + end * end).sqrt();
+            let distance = side.hypot(end);
             (distance, -(outward * side + out_of_end * end) / distance, along)
         }
     }
@@ -204,6 +204,8 @@ impl Frame {
     ) -> Result<Self, WallError> {
         WallError::count("frame", "number of patches around", patches[0], 1)?;
         WallError::count("frame", "number of patches along", patches[1], 1)?;
+        let patch_count = f64::from(patches[0]) * f64::from(patches[1]);
+        WallError::within("frame", "number of patches", patch_count, (1.0, f64::from(u32::MAX)))?;
         let cylinder = Cylinder::new("frame", start, end, radius)?;
         Ok(Self { cylinder, around: patches[0], along: patches[1] })
     }
@@ -264,7 +266,7 @@ impl Frame {
         let (distance, normal) = if back == 0.0 {
             (side.abs(), if side > 0.0 { -place.outward } else { place.outward })
         } else {
-            let distance = (side * side + back * back).sqrt();
+            let distance = side.hypot(back);
             (distance, -(place.outward * side + c.axis * back) / distance)
         };
         Touch { element: self.patch(&place), gap: distance - radius, normal }

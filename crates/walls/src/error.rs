@@ -111,6 +111,19 @@ impl WallError {
         }
     }
 
+    /// Checks that `value` lies in the closed range `allowed`; NaN never does.
+    pub(crate) fn within(
+        part: &str,
+        quantity: &'static str,
+        value: f64,
+        allowed: (f64, f64),
+    ) -> Result<(), Self> {
+        if allowed.0 <= value && value <= allowed.1 {
+            return Ok(());
+        }
+        Err(Self::OutOfRange { part: part.into(), quantity, value, allowed })
+    }
+
     /// Checks that a count is at least `least`.
     pub(crate) fn count(
         part: &str,
@@ -118,10 +131,6 @@ impl WallError {
         value: u32,
         least: u32,
     ) -> Result<(), Self> {
-        if value >= least {
-            return Ok(());
-        }
-        let (value, allowed) = (f64::from(value), (f64::from(least), f64::from(u32::MAX)));
-        Err(Self::OutOfRange { part: part.into(), quantity, value, allowed })
+        Self::within(part, quantity, value.into(), (least.into(), u32::MAX.into()))
     }
 }

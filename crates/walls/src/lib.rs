@@ -1,6 +1,7 @@
 //! Walls for spheres: where a sphere touches them, how they move, where their liquid sits.
 
 mod bounds;
+pub mod build;
 mod cylinder;
 mod error;
 mod mesh;
@@ -8,6 +9,7 @@ mod motion;
 mod part;
 mod plane;
 mod shape;
+mod sieve;
 mod stl;
 mod touch;
 mod triangle;
@@ -21,5 +23,6 @@ pub use motion::{Harmonic, Motion};
 pub use part::Part;
 pub use plane::Plane;
 pub use shape::{Shape, Tessellation};
+pub use sieve::{FrameKind, Sieve, Wires};
 pub use touch::Touch;
 pub use walls::Walls;

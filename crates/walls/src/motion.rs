@@ -128,13 +128,8 @@ impl Motion {
 
     /// Checks that every number is finite, frequencies and the ramp not negative.
     pub(crate) fn check(&self, part: &str) -> Result<(), WallError> {
-        let check = |quantity, value: f64| {
-            if (0.0..f64::INFINITY).contains(&value) {
-                return Ok(());
-            }
-            let allowed = (0.0, f64::INFINITY);
-            Err(WallError::OutOfRange { part: part.into(), quantity, value, allowed })
-        };
+        let check =
+            |quantity, value: f64| WallError::within(part, quantity, value, (0.0, f64::MAX));
         check("ramp duration", self.ramp)?;
         for term in &self.terms {
             WallError::finite(part, "amplitude", term.amplitude)?;

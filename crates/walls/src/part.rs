@@ -68,14 +68,7 @@ impl Part {
         if self.half_side != f64::INFINITY {
             WallError::positive(&self.name, "half side", self.half_side)?;
         }
-        if self.present_until.is_nan() {
-            return Err(WallError::OutOfRange {
-                part: self.name.clone(),
-                quantity: "time of removal",
-                value: self.present_until,
-                allowed: (f64::NEG_INFINITY, f64::INFINITY),
-            });
-        }
-        Ok(())
+        let always = (f64::NEG_INFINITY, f64::INFINITY);
+        WallError::within(&self.name, "time of removal", self.present_until, always)
     }
 }

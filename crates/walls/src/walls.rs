@@ -52,7 +52,11 @@ impl Walls {
             if known.is_none() {
                 motions.push(part.motion.clone());
             }
-            offsets.push(offsets[offsets.len() - 1] + part.shape.element_count());
+            let first = offsets[offsets.len() - 1];
+            let end = f64::from(first) + f64::from(part.shape.element_count());
+            let allowed = (0.0, f64::from(u32::MAX));
+            WallError::within(&part.name, "number of all elements", end, allowed)?;
+            offsets.push(first + part.shape.element_count());
         }
         let boxes = parts.iter().enumerate().filter_map(|(k, part)| {
             Some((k, part.shape.bounds()?.enlarged(part.motion.amplitude_bound())))
