@@ -149,9 +149,13 @@ impl ExactBridge {
         if gap > self.rupture.distance {
             return Err(SolveError::Ruptured { gap, rupture_distance: self.rupture.distance });
         }
-        let scaled = gap.max(0.0) / self.setup.gap_unit();
         let lost = SolveError::NotConverged { v_star: self.bridge.v_star(), gap };
-        self.path.state(&self.setup.solver, scaled).ok_or(lost)
+        self.scaled_state(gap.max(0.0) / self.setup.gap_unit()).ok_or(lost)
+    }
+
+    /// The solver's state at a gap in its own unit.
+    pub(super) fn scaled_state(&self, gap: f64) -> Option<State> {
+        self.path.state(&self.setup.solver, gap)
     }
 }
 

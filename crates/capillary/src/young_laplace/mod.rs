@@ -44,6 +44,7 @@ mod complex;
 mod error;
 mod exact;
 mod gauss;
+mod law;
 mod meridian;
 mod newton;
 mod path;
@@ -55,6 +56,7 @@ mod tests;
 
 pub use error::SolveError;
 pub use exact::ExactBridge;
+pub use law::{YoungLaplace, YoungLaplaceCurve};
 pub use rupture::{Rupture, RuptureKind};
 pub use solution::Solution;
 
