@@ -14,6 +14,7 @@ mod error;
 pub mod film;
 pub mod formation;
 mod law;
+mod root;
 pub mod rupture;
 pub mod split;
 

@@ -90,6 +90,17 @@ mod tests {
         assert_relative_eq!(with(Mate::PLANE), huge, max_relative = 1e-11);
     }
 
+    /// Gaps at 0.002 of this distance in an independent table (θ = 0): W21 and a sphere on a plane.
+    #[test]
+    fn gaps_of_an_independent_table() {
+        let r = 2.381e-3;
+        let at = |mate, v| at(&Bridge::new(r, mate, v, [0.0; 2], 0.0206).unwrap()).unwrap();
+        let w21 = at(Mate::Sphere { radius: 1.588e-3 }, 9.6e-12);
+        assert_relative_eq!(0.002 * w21, 4.21909044292e-07, max_relative = 1e-11);
+        let plane = at(Mate::PLANE, 1.624e-10);
+        assert_relative_eq!(0.002 * plane, 1.04116267426e-06, max_relative = 1e-11);
+    }
+
     #[test]
     fn it_stops_where_it_would_turn_over() {
         let on_plane =

@@ -1,13 +1,19 @@
 //! Who gets the liquid of a ruptured bridge.
 
+mod pair;
+pub mod parabola;
+mod profile;
+
+pub use pair::{Kind, Pair};
+
 use pendular_pair::OutOfRange;
 
 /// How the volume of a ruptured bridge is shared: one number, so that nothing can get lost.
 ///
 /// ```
 /// use pendular_transfer::Split;
-/// let [first, second] = Split::new(0.25)?.shares(8e-9);
-/// assert_eq!([first, second], [2e-9, 6e-9]);
+/// let [first, second] = Split::new(0.25)?.shares(8.0);
+/// assert_eq!([first, second], [2.0, 6.0]);
 /// # Ok::<(), pendular_transfer::OutOfRange>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
