@@ -80,7 +80,7 @@ impl NormalCurve for AdamsPerchard1985Curve {
             return self.strength / contact * self.clearance.weight_integral(gap);
         }
         // ln(s/s(0)) where s changes, a constant coefficient below a cut-off
-        let logarithm = ((gap - floor).max(0.0) / contact).ln_1p();
+        let logarithm = ((gap - floor).max(0.0) / contact).min(f64::MAX).ln_1p();
         self.strength * (gap.min(floor) / contact + logarithm)
     }
 }

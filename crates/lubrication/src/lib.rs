@@ -1,4 +1,4 @@
-//! Viscous drag in liquid bridges, as coefficients that never add energy.
+#![doc = include_str!("../README.md")]
 
 mod adams_perchard_1985;
 mod any;

@@ -65,10 +65,13 @@ impl NormalDrag for Pitois2000 {
         let strength = strength(bridge, viscosity, &clearance)?;
         let width_squared = bridge.volume() / (PI * bridge.reduced_radius());
         OutOfRange::positive("bridge volume over reduced radius", width_squared)?;
+        let contact_ratio = clearance.contact / clearance.contact.hypot(width_squared.sqrt());
+        let allowed = (f64::MIN_POSITIVE, 1.0);
+        OutOfRange::within("clearance over bridge width", contact_ratio, allowed)?;
         let mut curve = Pitois2000Curve {
             strength,
             width_squared,
-            contact_ratio: clearance.contact / clearance.contact.hypot(width_squared.sqrt()),
+            contact_ratio,
             contact_coefficient: 0.0,
             clearance,
         };
