@@ -19,9 +19,9 @@ use crate::{CapillaryLaw, ForceCurve};
 /// Gap m, volume m³, contact angle rad, surface tension N/m; force N, tension positive.
 ///
 /// # Range
-/// Small bridges, d ≪ R: V* = V/R³ ≤ 0.01 (d/R ≤ 0.04), angles up to 50°, at most 40° apart. The
-/// error near contact grows from 3 % with V* and θ; it is 20 % at V* = 0.01, θ = 0 and worse with
-/// the angle.
+/// Small bridges, d ≪ R: V* = V/R³ ≤ 0.01 (d/R ≤ 0.04), angles up to 20°. Against the exact bridge
+/// of equal spheres it is too large at contact, by 10 % at V* = 1e-3 and 22 % at 0.01 for θ = 0 (17
+/// and 35 % for 20°), and within 21 % (θ = 0) or 32 % (20°) up to 0.9 of the rupture gap.
 ///
 /// # Limits
 /// Gap → 0 and V → 0: `2 π R σ cos θ`. Against a plane R = 2 rᵢ, the limit of a large second
@@ -65,8 +65,8 @@ impl CapillaryLaw for Rabinovich2005 {
     fn validity(&self) -> Validity {
         Validity {
             v_star: (0.0, 0.01),
-            contact_angle: (0.0, 50f64.to_radians()),
-            angle_difference: 40f64.to_radians(),
+            contact_angle: (0.0, 20f64.to_radians()),
+            angle_difference: 20f64.to_radians(),
             radius_ratio: (1.0, f64::INFINITY),
         }
     }
@@ -125,7 +125,7 @@ mod tests {
         let right = 2.0 * PI * sigma * r * alpha.sin() * (theta + alpha).sin();
         let limit = 2.0 * PI * sigma * r * theta.cos();
         assert!(right < 1e-3 * limit && printed > 0.3 * limit);
-        let force = Rabinovich2005.force(&b, 0.0, Range::Strict).unwrap();
+        let force = Rabinovich2005.force(&b, 0.0, Range::Extrapolate).unwrap();
         assert!((force / (limit + right) - 1.0).abs() < 1e-12);
         assert!((force / limit - 1.0).abs() < 1e-3);
     }
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn symmetric_and_finite_at_the_ends() {
-        let b = spheres(1e-3, 4e-3, 1e-12, [0.1, 0.4], 0.05);
+        let b = spheres(1e-3, 4e-3, 1e-12, [0.1, 0.3], 0.05);
         let curve = Rabinovich2005.curve(&b, Range::Strict).unwrap();
         let other = Rabinovich2005.curve(&b.swapped().unwrap(), Range::Strict).unwrap();
         assert!((curve.force(1e-6) / other.force(1e-6) - 1.0).abs() < 1e-14);

@@ -17,8 +17,8 @@ use crate::{CapillaryLaw, ForceCurve};
 ///
 /// # Range
 /// 1e-3 ≤ V* ≤ 0.1 (V* = V/R³ with the harmonic radius R), angles up to 20°, radius ratio up to 2:
-/// there 6 to 10 % from the exact bridge at contact, up to 26 % for unequal spheres in the gap.
-/// Below v = 1.5e-3 the printed force grows with the contact angle, which is wrong.
+/// there within 13 % of the exact bridge of equal spheres and 26 % of unequal ones up to 0.9 of the
+/// rupture gap. Below v = 1.5e-3 the printed force grows with the contact angle, which is wrong.
 ///
 /// # Limits
 /// No contact limit of its own. The force tends to `π σ √(r₁ r₂) c` far away, not to 0. No plane:

@@ -17,10 +17,11 @@ use crate::{CapillaryLaw, ForceCurve};
 /// Gap m, volume m³, contact angle rad, surface tension N/m; force N, tension positive.
 ///
 /// # Range
-/// 1e-4 ≤ V* ≤ 0.3, angles up to 50°, at most 40° apart: there about 4 % from the exact bridge,
-/// 10 % near rupture (11 % at contact for 50° and V* = 0.3). The paper gives V* < 0.1 and no lower
-/// end, but the fit fails below: +31 % at V* = 1e-5 and twenty times the force at 1e-6. Below about
-/// 1e-8 f₄ turns positive and the force falls to 0 towards contact.
+/// 1e-4 ≤ V* ≤ 0.3, angles up to 50°, at most 40° apart: there about 4 % from the exact bridge of
+/// equal spheres, 10 % at 0.9 of the rupture gap, 26 % at 0.98 of it (11 % at contact for 50° and
+/// V* = 0.3). On a plane the harmonic radius adds 7 % at V* = 0.1. The paper gives V* < 0.1 and no
+/// lower end, but the fit fails below: +31 % at V* = 1e-5 and three to twenty times the force at
+/// 1e-6. Below about 1e-8 f₄ turns positive and the force falls to 0 towards contact.
 ///
 /// # Limits
 /// Gap = 0 is defined as the limit `2 π R σ exp(f₁)` of f₄ < 0. Against a plane R = 2 rᵢ. Beyond
