@@ -28,14 +28,18 @@ pub trait Boundary: Send + Sync {
     /// Whether a part is there at the time of the last [`Boundary::move_to`].
     fn is_present(&self, part: u32) -> bool;
 
-    /// Appends the parts, ascending, that may have a point within `reach` m of `centre`.
+    /// Collects the parts, ascending, that may have a point within `reach` m of `centre`; `parts`
+    /// is cleared first.
     fn near(&self, centre: DVec3, reach: f64, parts: &mut Vec<u32>);
 
-    /// Appends the elements of `part` to look at for touches within `reach` m of `centre`.
-    fn candidates(&self, part: u32, centre: DVec3, reach: f64, elements: &mut Vec<u32>);
+    /// Collects the elements of `part` to look at for touches within `reach` m of `centre` and
+    /// says whether there can be any; `elements` is cleared first. A shape that needs no such list
+    /// leaves it empty.
+    fn candidates(&self, part: u32, centre: DVec3, reach: f64, elements: &mut Vec<u32>) -> bool;
 
-    /// Appends where a sphere touches `part` with a gap of at most `reach` m, nearest first, once
-    /// per smooth piece of surface.
+    /// Collects where a sphere touches `part` with a gap of at most `reach` m, nearest first, once
+    /// per smooth piece of surface; `touches` is cleared first. The nearest is found whatever its
+    /// gap if `reach` is infinite.
     fn touches(
         &self,
         part: u32,
@@ -70,9 +74,16 @@ impl Boundary for NoWalls {
         false
     }
 
-    fn near(&self, _: DVec3, _: f64, _: &mut Vec<u32>) {}
+    fn near(&self, _: DVec3, _: f64, parts: &mut Vec<u32>) {
+        parts.clear();
+    }
 
-    fn candidates(&self, _: u32, _: DVec3, _: f64, _: &mut Vec<u32>) {}
+    fn candidates(&self, _: u32, _: DVec3, _: f64, elements: &mut Vec<u32>) -> bool {
+        elements.clear();
+        false
+    }
 
-    fn touches(&self, _: u32, _: &[u32], _: DVec3, _: f64, _: f64, _: &mut Vec<Touch>) {}
+    fn touches(&self, _: u32, _: &[u32], _: DVec3, _: f64, _: f64, touches: &mut Vec<Touch>) {
+        touches.clear();
+    }
 }

@@ -26,8 +26,9 @@ pub(crate) struct Roll {
 /// One smooth piece of a wall part that a particle touches, and what the term remembers of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Memory<C> {
-    /// Normal at the last read: it tells which touch this was, whatever triangle carried it.
-    pub(crate) normal: DVec3,
+    /// The touch at the last read: its normal tells which one this was, whatever triangle
+    /// carried it.
+    pub(crate) touch: Touch,
     pub(crate) column: C,
 }
 

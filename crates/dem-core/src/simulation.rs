@@ -8,7 +8,7 @@ use crate::chunk::{Chunk, List, Note, Roll};
 use crate::integrate::{Bodies, Moved, integrate};
 use crate::limit::{self, Limit};
 use crate::order::chunk_size;
-use crate::particles::Particles;
+use crate::particles::{Particles, Place};
 use crate::pass::{self, View};
 use crate::{Boundary, PairTerm, Profile, SimulationError, Visit, wall_pass};
 
@@ -434,10 +434,13 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             }
             let mut touches = Vec::new();
             for wall in &chunk.walls {
-                let pair = wall_pass::ending(&view, &self.boundary, wall, &chunk.pool, &mut touches);
-                let deep = pair.filter(|p| -p.encounter.gap > share * p.radii[0]);
-                if let Some(pair) = deep {
-                    return fail(pair.encounter, share * pair.radii[0]);
+                let Place { x, r } = view.places[wall.slot as usize];
+                let near = &chunk.pool[wall.candidates.clone()];
+                self.boundary.touches(wall.part, near, x, r, 0.0, &mut touches);
+                let deepest = touches.first().filter(|t| -t.gap > share * r);
+                if let Some(touch) = deepest {
+                    let pair = wall_pass::ending(&view, &self.boundary, wall, touch);
+                    return fail(pair.encounter, share * r);
                 }
             }
         }
@@ -475,7 +478,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let (term, boundary) = (&self.term, &self.boundary);
         let view = self.view();
         let mut visits: Vec<Visit<T::Column>> = Vec::new();
-        let mut touches = Vec::new();
         for chunk in &self.chunks {
             if !leaving.is_empty() {
                 for (list, across) in [(&chunk.inside, false), (&chunk.across, true)] {
@@ -496,10 +498,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 {
                     continue;
                 }
-                let pair = wall_pass::ending(&view, boundary, wall, &chunk.pool, &mut touches);
                 let live = wall.memories.iter().filter(|m| term.live(&m.column));
-                let last = |column| pair.map(|pair| Visit { pair, column, ending: true });
-                visits.extend(live.filter_map(|m| last(m.column)));
+                visits.extend(live.map(|m| Visit {
+                    pair: wall_pass::ending(&view, boundary, wall, &m.touch),
+                    column: m.column,
+                    ending: true,
+                }));
             }
         }
         for chunk in &mut self.chunks {

@@ -47,7 +47,6 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     let live = wall.memories.iter().any(|m| term.live(&m.column));
     let reach = if live { f64::INFINITY } else { reach };
     let candidates = &chunk.pool[wall.candidates.clone()];
-    chunk.touches.clear();
     boundary.touches(wall.part, candidates, x, r, reach, &mut chunk.touches);
     if !live && !chunk.touches.iter().any(|t| t.gap <= reach) {
         wall.memories.clear();
@@ -56,7 +55,7 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     remember(term, &chunk.touches, &mut wall.memories, &mut chunk.memories);
     for (k, touch) in chunk.touches.iter().enumerate() {
         let memory = &mut wall.memories[k];
-        let before = std::mem::replace(&mut memory.normal, touch.normal);
+        let before = std::mem::replace(&mut memory.touch, *touch).normal;
         let encounter = Encounter {
             first: view.id[wall.slot as usize],
             second: Partner::Wall(wall.part),
@@ -91,13 +90,13 @@ fn remember<T: PairTerm>(
 ) {
     scratch.clear();
     for touch in touches {
-        let likeness = |m: &Memory<T::Column>| m.normal.dot(touch.normal);
+        let likeness = |m: &Memory<T::Column>| m.touch.normal.dot(touch.normal);
         let best = (0..memories.len())
             .filter(|&k| likeness(&memories[k]) >= SAME)
             .max_by(|&a, &b| likeness(&memories[a]).total_cmp(&likeness(&memories[b])));
         scratch.push(match best {
             Some(k) => memories.swap_remove(k),
-            None => Memory { normal: touch.normal, column: T::Column::default() },
+            None => Memory { touch: *touch, column: T::Column::default() },
         });
     }
     if let Some((nearest, others)) = scratch.split_first_mut() {
@@ -151,19 +150,13 @@ fn pair<B: Boundary, const ROLLS: bool>(
     pair
 }
 
-/// A wall pair that is about to end, for the term's last visit.
+/// A touch as it was last read, for the term's last visit.
 pub(crate) fn ending<B: Boundary>(
     view: &View<'_>,
     boundary: &B,
     wall: &WallPair<impl Copy>,
-    pool: &[u32],
-    touches: &mut Vec<Touch>,
-) -> Option<Pair> {
-    let Place { x, r } = view.places[wall.slot as usize];
-    touches.clear();
-    let candidates = &pool[wall.candidates.clone()];
-    boundary.touches(wall.part, candidates, x, r, f64::INFINITY, touches);
-    let touch = *touches.first()?;
+    touch: &Touch,
+) -> Pair {
     let encounter = Encounter {
         first: view.id[wall.slot as usize],
         second: Partner::Wall(wall.part),
@@ -171,7 +164,7 @@ pub(crate) fn ending<B: Boundary>(
         nearest: true,
         gap: touch.gap,
     };
-    Some(pair::<B, false>(view, boundary, wall.slot, encounter, &touch, touch.normal))
+    pair::<B, false>(view, boundary, wall.slot, encounter, touch, touch.normal)
 }
 
 /// Renews a chunk's wall pairs: every part within `reach`, and every live pair at its own gap.
@@ -182,54 +175,33 @@ pub(crate) fn find<T: PairTerm, B: Boundary>(
     reach: f64,
     chunk: &mut Chunk<T::Column>,
 ) {
-    let old = std::mem::take(&mut chunk.walls);
-    let old_pool = std::mem::take(&mut chunk.pool);
-    let mut carried = old.into_iter().peekable();
-    let mut parts = Vec::new();
+    let mut carried = std::mem::take(&mut chunk.walls).into_iter().peekable();
+    chunk.pool.clear();
+    let (mut parts, mut candidates, mut mine) = (Vec::new(), Vec::new(), Vec::new());
     for slot in chunk.range.clone() {
         let Place { x, r } = places[slot as usize];
-        parts.clear();
         boundary.near(x, r + reach, &mut parts);
-        let mut mine: Vec<_> = Vec::new();
-        while let Some(wall) = carried.next_if(|w| w.slot == slot) {
-            mine.push(wall);
-        }
-        for wall in &mine {
-            let live = wall.memories.iter().any(|m| term.live(&m.column));
-            if live && !parts.contains(&wall.part) {
+        mine.clear();
+        while let Some(wall) = carried.next_if(|wall| wall.slot == slot) {
+            if wall.memories.iter().any(|m| term.live(&m.column)) && !parts.contains(&wall.part) {
                 parts.push(wall.part);
             }
+            mine.push(wall);
         }
         parts.sort_unstable();
         for &part in &parts {
-            let old = mine.iter_mut().find(|w| w.part == part);
-            let memories = old.map(|w| std::mem::take(&mut w.memories)).unwrap_or_default();
-            let live = memories.iter().any(|m| term.live(&m.column));
-            let start = chunk.pool.len();
-            let mut range = r + reach;
-            if live {
-                let before = mine.iter().find(|w| w.part == part);
-                let known = before.map_or(&[][..], |w| &old_pool[w.candidates.clone()]);
-                range += nearest(boundary, part, known, x, r, &mut chunk.touches).max(0.0);
-            }
-            boundary.candidates(part, x, range, &mut chunk.pool);
-            if chunk.pool.len() > start {
+            let old = mine.iter_mut().find(|wall| wall.part == part);
+            let memories = old.map(|wall| std::mem::take(&mut wall.memories)).unwrap_or_default();
+            let live = memories.iter().filter(|m| term.live(&m.column));
+            // A live pair's gap has changed by less than the skin since it was read.
+            let apart = live.fold(0.0_f64, |most, m| most.max(m.touch.gap + reach));
+            let may_touch = boundary.candidates(part, x, r + reach + apart, &mut candidates);
+            if may_touch || !memories.is_empty() {
+                let start = chunk.pool.len();
+                chunk.pool.extend_from_slice(&candidates);
                 let candidates = start..chunk.pool.len();
                 chunk.walls.push(WallPair { slot, part, candidates, memories });
             }
         }
     }
-}
-
-fn nearest<B: Boundary>(
-    boundary: &B,
-    part: u32,
-    candidates: &[u32],
-    x: DVec3,
-    r: f64,
-    touches: &mut Vec<Touch>,
-) -> f64 {
-    touches.clear();
-    boundary.touches(part, candidates, x, r, f64::INFINITY, touches);
-    touches.first().map_or(0.0, |t| t.gap)
 }

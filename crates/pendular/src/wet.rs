@@ -1,0 +1,552 @@
+use pendular_capillary::{CapillaryLaw, ForceCurve};
+use pendular_dem_core::{
+    Class, DVec3, Encounter, Load, Pair, PairTerm, Partner, StabilityLoad, TermError, Visit,
+};
+use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
+use pendular_pair::{Bridge, Mate, OutOfRange, Range};
+use pendular_transfer::formation::{self, WetMate};
+use pendular_transfer::{DynamicCurve, RuptureLaw, Split, TransferError, film};
+
+use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
+
+/// No bridge.
+const DRY: u32 = u32::MAX;
+
+/// Why the liquid term could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WetError {
+    /// A law does not take the bridge that has formed.
+    #[error("bridge of {volume:.3e} m^3 between particle {first} and {second:?}: {source}")]
+    Law {
+        /// The first body.
+        first: u32,
+        /// The second body.
+        second: Partner,
+        /// The bridge's volume, m³.
+        volume: f64,
+        /// What the law said.
+        source: OutOfRange,
+    },
+    /// No transfer ratio is known for the bridge that has formed.
+    #[error("bridge of {volume:.3e} m^3 between particle {first} and {second:?}: {source}")]
+    Transfer {
+        /// The first body.
+        first: u32,
+        /// The second body.
+        second: Partner,
+        /// The bridge's volume, m³.
+        volume: f64,
+        /// What the split said.
+        source: TransferError,
+    },
+    /// A parameter of the liquid is not usable.
+    #[error(transparent)]
+    Parameter(#[from] OutOfRange),
+    /// A material has no contact angle.
+    #[error("no contact angle for {what} material {material}: {known} are given")]
+    NoAngle {
+        /// `particle` or `wall`.
+        what: &'static str,
+        /// The material's index.
+        material: usize,
+        /// How many angles are given.
+        known: usize,
+    },
+}
+
+/// A wall element as the liquid sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallElement {
+    /// Area over which its film lies, m².
+    pub area: f64,
+}
+
+/// The bodies of a scene as the liquid sees them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bodies {
+    /// Class of each particle, by id.
+    pub class: Vec<u16>,
+    /// Radius of each class, m.
+    pub radii: Vec<f64>,
+    /// Material of each class.
+    pub materials: Vec<u8>,
+    /// Half side of each wall part, m; infinite for a large wall.
+    pub half_sides: Vec<f64>,
+    /// Material of each wall part.
+    pub wall_materials: Vec<u8>,
+    /// First element of each wall part in `elements`.
+    pub first_elements: Vec<u32>,
+    /// Elements of all wall parts.
+    pub elements: Vec<WallElement>,
+}
+
+/// How many bridges there were.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Bridges formed.
+    pub formed: u64,
+    /// Bridges ruptured, those of bodies that left included.
+    pub ruptured: u64,
+    /// Bridges formed outside the validity range of their capillary or rupture law.
+    pub extrapolated: u64,
+}
+
+/// What a pair remembers of its bridge; all that [`Wet::load`](PairTerm::load) needs of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold<C, N, S> {
+    bridge: u32,
+    rupture: f64,
+    reduced_radius: f64,
+    dynamic: DynamicCurve,
+    curves: Option<(C, N, S)>,
+}
+
+impl<C, N, S> Hold<C, N, S> {
+    /// Number of the pair's bridge account, if it has a bridge.
+    #[must_use]
+    pub fn bridge(&self) -> Option<u32> {
+        (self.bridge != DRY).then_some(self.bridge)
+    }
+}
+
+impl<C, N, S> Default for Hold<C, N, S> {
+    fn default() -> Self {
+        let dynamic = DynamicCurve::One;
+        Self { bridge: DRY, rupture: 0.0, reduced_radius: 0.0, dynamic, curves: None }
+    }
+}
+
+/// What only the end of a bridge needs: kept apart from what every step reads.
+#[derive(Debug, Clone, Copy)]
+struct Live {
+    split: Split,
+}
+
+/// Liquid bridges: they form where films touch, pull, drag, break and hand liquid on.
+///
+/// All formations and ruptures of a step are computed from the state at its start and booked
+/// together at its end (Elskamp & Kruggel-Emden 2018, section 2.2.1).
+#[derive(Debug)]
+pub struct Wet<C, N, S> {
+    liquid: Liquid,
+    between: PairLaws<C, N, S>,
+    with_walls: PairLaws<C, N, S>,
+    split: SplitMethod,
+    range: Range,
+    bodies: Bodies,
+    ledger: Ledger,
+    live: Vec<Option<Live>>,
+    thickness: Vec<f64>,
+    wall_thickness: Vec<f64>,
+    thickest: f64,
+    counts: Counts,
+}
+
+type Column<C, N, S> =
+    Hold<<C as CapillaryLaw>::Curve, <N as NormalDrag>::Curve, <S as TangentialDrag>::Curve>;
+
+impl<C, N, S> Wet<C, N, S>
+where
+    C: CapillaryLaw,
+    N: NormalDrag,
+    S: TangentialDrag,
+{
+    /// Liquid on particles, walls dry.
+    ///
+    /// `films` are the volumes L on the particles by id, m³. `range` says what to do with a bridge
+    /// outside a law's validity range: refuse (the run stops) or count it as extrapolated.
+    ///
+    /// # Errors
+    /// [`WetError`] for a negative film, a parameter that is not positive, or a material without
+    /// contact angle.
+    pub fn new(
+        liquid: Liquid,
+        between: PairLaws<C, N, S>,
+        with_walls: PairLaws<C, N, S>,
+        split: SplitMethod,
+        range: Range,
+        bodies: Bodies,
+        films: Vec<f64>,
+    ) -> Result<Self, WetError> {
+        check(&liquid, &bodies, &films)?;
+        let (particles, elements) = (films.len(), bodies.elements.len());
+        let mut wet = Self {
+            ledger: Ledger::new(films, elements),
+            thickness: vec![0.0; particles],
+            wall_thickness: vec![0.0; elements],
+            thickest: 0.0,
+            live: Vec::new(),
+            counts: Counts::default(),
+            liquid,
+            between,
+            with_walls,
+            split,
+            range,
+            bodies,
+        };
+        for id in 0..particles as u32 {
+            wet.measure(Account::Film(id))?;
+        }
+        Ok(wet)
+    }
+
+    /// The account of all liquid.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// How many bridges formed and broke.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Bridges alive.
+    #[must_use]
+    pub fn alive(&self) -> u64 {
+        self.counts.formed - self.counts.ruptured
+    }
+
+    /// The liquid.
+    #[must_use]
+    pub fn liquid(&self) -> &Liquid {
+        &self.liquid
+    }
+
+    /// Film thickness on a particle, m.
+    #[must_use]
+    pub fn film_thickness(&self, id: u32) -> f64 {
+        self.thickness.get(id as usize).copied().unwrap_or(0.0)
+    }
+
+    /// Books the film of a particle that left the scene as drained and returns it, m³.
+    pub fn drain(&mut self, id: u32) -> f64 {
+        let volume = self.ledger.volume(Account::Film(id));
+        let out = Move { from: Account::Film(id), to: Account::Drained, volume };
+        self.ledger.book(&mut [out]);
+        volume
+    }
+
+    /// How the liquid of a live bridge would be shared if it broke now, m³ to the first body and
+    /// to the second.
+    #[must_use]
+    pub fn shares(&self, bridge: u32) -> [f64; 2] {
+        let split = self.live.get(bridge as usize).copied().flatten();
+        let volume = self.ledger.volume(Account::Bridge(bridge));
+        split.map_or([0.0; 2], |live| live.split.shares(volume))
+    }
+
+    fn radius(&self, id: u32) -> f64 {
+        self.bodies.radii[usize::from(self.bodies.class[id as usize])]
+    }
+
+    /// Wall element of an encounter, numbered through all parts.
+    fn element(&self, part: u32, encounter: &Encounter) -> usize {
+        (self.bodies.first_elements[part as usize] + encounter.element) as usize
+    }
+
+    fn thicknesses(&self, encounter: &Encounter) -> [f64; 2] {
+        let second = match encounter.second {
+            Partner::Particle(id) => self.thickness[id as usize],
+            Partner::Wall(part) => self.wall_thickness[self.element(part, encounter)],
+        };
+        [self.thickness[encounter.first as usize], second]
+    }
+
+    fn accounts(&self, encounter: &Encounter) -> [Account; 2] {
+        let second = match encounter.second {
+            Partner::Particle(id) => Account::Film(id),
+            Partner::Wall(part) => Account::Wall(self.element(part, encounter) as u32),
+        };
+        [Account::Film(encounter.first), second]
+    }
+
+    fn mate(&self, encounter: &Encounter) -> WetMate {
+        match encounter.second {
+            Partner::Particle(id) => WetMate::Sphere {
+                radius: self.radius(id),
+                film_volume: self.ledger.volume(Account::Film(id)),
+            },
+            Partner::Wall(part) => {
+                let element = self.element(part, encounter);
+                WetMate::Wall {
+                    half_side: self.bodies.half_sides[part as usize],
+                    film_volume: self.ledger.volume(Account::Wall(element as u32)),
+                    area: self.bodies.elements[element].area,
+                }
+            }
+        }
+    }
+
+    fn contact_angles(&self, encounter: &Encounter) -> [f64; 2] {
+        let of = |id: u32| {
+            let class = usize::from(self.bodies.class[id as usize]);
+            self.liquid.particle_angles[usize::from(self.bodies.materials[class])]
+        };
+        let second = match encounter.second {
+            Partner::Particle(id) => of(id),
+            Partner::Wall(part) => {
+                self.liquid.wall_angles[usize::from(self.bodies.wall_materials[part as usize])]
+            }
+        };
+        [of(encounter.first), second]
+    }
+
+    /// What both bodies would give to a new bridge.
+    fn claims(&self, encounter: &Encounter, bridge: u32) -> Result<[Move; 2], TransferError> {
+        let film = self.ledger.volume(Account::Film(encounter.first));
+        let mate = self.mate(encounter);
+        let claims = formation::claims(self.radius(encounter.first), film, mate)?;
+        let [first, second] = self.accounts(encounter);
+        let to = Account::Bridge(bridge);
+        Ok([
+            Move { from: first, to, volume: claims[0] },
+            Move { from: second, to, volume: claims[1] },
+        ])
+    }
+
+    /// Folds the bridge of a pair into its column, now that its volume is known.
+    fn fold(&mut self, pair: &Pair, account: u32) -> Result<Column<C, N, S>, WetError> {
+        let encounter = &pair.encounter;
+        let volume = self.ledger.volume(Account::Bridge(account));
+        let (first, second) = (encounter.first, encounter.second);
+        let refuse = |source| WetError::Law { first, second, volume, source };
+        let (laws, mate) = match second {
+            Partner::Particle(id) => (&self.between, Mate::Sphere { radius: self.radius(id) }),
+            Partner::Wall(part) => {
+                let half_side = self.bodies.half_sides[part as usize];
+                (&self.with_walls, Mate::Wall { half_side })
+            }
+        };
+        let angles = self.contact_angles(encounter);
+        let tension = self.liquid.surface_tension;
+        let bridge =
+            Bridge::new(self.radius(first), mate, volume, angles, tension).map_err(refuse)?;
+        let strange = laws.capillary.validity().check(&bridge).is_err()
+            || laws.rupture.validity().check(&bridge).is_err();
+        self.counts.extrapolated += u64::from(strange);
+        let viscosity = self.liquid.viscosity;
+        let hold = Hold {
+            bridge: account,
+            rupture: laws.rupture.distance(&bridge, self.range).map_err(refuse)?,
+            reduced_radius: bridge.reduced_radius(),
+            dynamic: laws.dynamic.curve(&bridge).map_err(refuse)?,
+            curves: Some((
+                laws.capillary.curve(&bridge, self.range).map_err(refuse)?,
+                laws.normal.curve(&bridge, viscosity).map_err(refuse)?,
+                laws.tangential.curve(&bridge, viscosity).map_err(refuse)?,
+            )),
+        };
+        let split = self.split.split(&bridge);
+        let split =
+            split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
+        self.live.resize((account as usize + 1).max(self.live.len()), None);
+        self.live[account as usize] = Some(Live { split });
+        Ok(hold)
+    }
+
+    /// Brings the film thickness of an account up to date.
+    fn measure(&mut self, account: Account) -> Result<(), WetError> {
+        let volume = self.ledger.volume(account);
+        let thickness = match account {
+            Account::Film(id) => {
+                let h = film::thickness(self.radius(id), volume).map_err(parameter)?;
+                self.thickness[id as usize] = h;
+                h
+            }
+            Account::Wall(element) => {
+                let area = self.bodies.elements[element as usize].area;
+                let h = film::wall_thickness(area, volume).map_err(parameter)?;
+                self.wall_thickness[element as usize] = h;
+                h
+            }
+            Account::Bridge(_) | Account::Drained => 0.0,
+        };
+        self.thickest = self.thickest.max(thickness);
+        Ok(())
+    }
+
+    /// Moves that end a bridge: its volume goes back to its bodies in the split's shares.
+    fn rupture(&mut self, encounter: &Encounter, bridge: u32) -> [Move; 2] {
+        let [to_first, to_second] = self.accounts(encounter);
+        let [first, second] = self.shares(bridge);
+        let from = Account::Bridge(bridge);
+        [Move { from, to: to_first, volume: first }, Move { from, to: to_second, volume: second }]
+    }
+}
+
+fn parameter(error: TransferError) -> OutOfRange {
+    match error {
+        TransferError::OutOfRange(source) => source,
+        // A film has no other way to be wrong.
+        _ => OutOfRange { quantity: "film", value: f64::NAN, allowed: (0.0, f64::INFINITY) },
+    }
+}
+
+fn check(liquid: &Liquid, bodies: &Bodies, films: &[f64]) -> Result<(), WetError> {
+    OutOfRange::positive("surface tension", liquid.surface_tension)?;
+    OutOfRange::positive("viscosity", liquid.viscosity)?;
+    OutOfRange::positive("liquid density", liquid.density)?;
+    for &volume in films {
+        OutOfRange::within("film volume", volume, (0.0, f64::MAX))?;
+    }
+    for element in &bodies.elements {
+        OutOfRange::positive("area of a wall element", element.area)?;
+    }
+    let angles = [
+        ("particle", &bodies.materials, &liquid.particle_angles),
+        ("wall", &bodies.wall_materials, &liquid.wall_angles),
+    ];
+    for (what, materials, angles) in angles {
+        for material in materials.iter().map(|&m| usize::from(m)) {
+            let known = angles.len();
+            let angle = *angles.get(material).ok_or(WetError::NoAngle { what, material, known })?;
+            let allowed = (0.0, std::f64::consts::PI);
+            if !(angle >= allowed.0 && angle < allowed.1) {
+                let quantity = "contact angle";
+                return Err(OutOfRange { quantity, value: angle, allowed }.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+impl<C, N, S> PairTerm for Wet<C, N, S>
+where
+    C: CapillaryLaw + Send + Sync,
+    C::Curve: Send + Sync,
+    N: NormalDrag + Send + Sync,
+    N::Curve: Send + Sync,
+    S: TangentialDrag + Send + Sync,
+    S::Curve: Send + Sync,
+{
+    type Column = Column<C, N, S>;
+
+    fn reach(&self) -> f64 {
+        2.0 * self.thickest
+    }
+
+    #[inline]
+    fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
+        if column.bridge != DRY {
+            return false;
+        }
+        // The thickest film there ever was decides most pairs without a look at their own.
+        !encounter.nearest
+            || encounter.gap > 2.0 * self.thickest
+            || !formation::films_touch(encounter.gap, self.thicknesses(encounter))
+    }
+
+    #[inline]
+    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
+        let gap = pair.encounter.gap;
+        let Some((capillary, normal, tangential)) = &column.curves else {
+            let forms = pair.encounter.nearest
+                && formation::films_touch(gap, self.thicknesses(&pair.encounter));
+            return Load { attention: forms, ..Load::default() };
+        };
+        if gap > column.rupture {
+            let speed = pair.separation_speed.hypot(pair.slip.length());
+            if gap > column.rupture * column.dynamic.factor(speed) {
+                return Load { attention: true, ..Load::default() };
+            }
+        }
+        let tension = capillary.force(gap) + normal.coefficient(gap) * pair.separation_speed;
+        let resistance = tangential.resistance(gap);
+        let mut shear = -resistance.slip * pair.slip;
+        let mut couple = DVec3::ZERO;
+        if resistance.coupling != 0.0 || resistance.rolling != 0.0 {
+            let rolling = column.reduced_radius * pair.spin.cross(pair.half_step_normal);
+            shear -= resistance.coupling * rolling;
+            let force = -(resistance.coupling * pair.slip + resistance.rolling * rolling);
+            couple = column.reduced_radius * pair.normal.cross(force);
+        }
+        Load { tension, shear, couple, ..Load::default() }
+    }
+
+    #[inline]
+    fn live(&self, column: &Self::Column) -> bool {
+        column.bridge != DRY
+    }
+
+    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        let mut moves = Vec::with_capacity(2 * visits.len());
+        let mut forming = Vec::new();
+        for (k, visit) in visits.iter_mut().enumerate() {
+            let encounter = visit.pair.encounter;
+            if visit.column.bridge != DRY {
+                moves.extend(self.rupture(&encounter, visit.column.bridge));
+            } else if !visit.ending {
+                let bridge = self.ledger.open_bridge();
+                moves.extend(self.claims(&encounter, bridge)?);
+                forming.push((k, bridge));
+            }
+        }
+        self.ledger.book(&mut moves);
+        for visit in visits.iter_mut().filter(|visit| visit.column.bridge != DRY) {
+            let bridge = std::mem::take(&mut visit.column).bridge;
+            self.live[bridge as usize] = None;
+            self.ledger.close_bridge(bridge);
+            self.counts.ruptured += 1;
+        }
+        for (k, bridge) in forming {
+            if self.ledger.volume(Account::Bridge(bridge)) > 0.0 {
+                visits[k].column = self.fold(&visits[k].pair, bridge)?;
+                self.counts.formed += 1;
+            } else {
+                self.ledger.close_bridge(bridge);
+            }
+        }
+        for step in &moves {
+            self.measure(step.from)?;
+            self.measure(step.to)?;
+        }
+        Ok(())
+    }
+
+    fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
+        if from.bridge != DRY && to.bridge == DRY {
+            std::mem::swap(from, to);
+        }
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+        let one = |class: &Class| self.strongest_drag(class, classes).unwrap_or_default();
+        classes.iter().map(one).collect()
+    }
+}
+
+impl<C, N, S> Wet<C, N, S>
+where
+    C: CapillaryLaw,
+    N: NormalDrag,
+    S: TangentialDrag,
+{
+    /// The drag at contact of the strongest pair that a class can be part of.
+    fn strongest_drag(
+        &self,
+        class: &Class,
+        classes: &[Class],
+    ) -> Result<StabilityLoad, OutOfRange> {
+        let largest = classes.iter().fold(0.0_f64, |r, other| r.max(other.radius()));
+        let pairs = [
+            (&self.between, Mate::Sphere { radius: largest }),
+            (&self.with_walls, Mate::PLANE),
+        ];
+        let mut most = StabilityLoad::default();
+        for (laws, mate) in pairs {
+            // The drag coefficients at contact hardly depend on the volume.
+            let volume = 1e-2 * class.radius().powi(3);
+            let tension = self.liquid.surface_tension;
+            let bridge = Bridge::new(class.radius(), mate, volume, [0.0; 2], tension)?;
+            let normal = laws.normal.curve(&bridge, self.liquid.viscosity)?;
+            let tangential = laws.tangential.curve(&bridge, self.liquid.viscosity)?;
+            let slip = tangential.resistance(0.0).slip;
+            most.normal_drag = most.normal_drag.max(normal.coefficient(0.0));
+            most.tangential_drag = most.tangential_drag.max(slip);
+        }
+        Ok(most)
+    }
+}
