@@ -9,17 +9,23 @@ use crate::{Mesh, WallError};
 /// More elements than this along one edge are taken for a wrong unit.
 const MOST: f64 = 100_000.0;
 
+/// More pieces than this in one mesh are taken for a wrong unit.
+const MOST_PIECES: f64 = 1e7;
+
 /// A parallelogram from `corner` (m) along the edges `u` and `v` (m), cut into `cuts[0]` x
 /// `cuts[1]` pieces of two triangles each.
 ///
 /// # Errors
-/// [`WallError::OutOfRange`] where a count is 0 or above 100 000, else as [`Mesh::new`]
+/// [`WallError::OutOfRange`] where a count is 0 or above 100 000, or there are more than 10⁷
+/// pieces, else as [`Mesh::new`]
 /// (degenerate where the edges are parallel).
 pub fn rectangle(corner: DVec3, u: DVec3, v: DVec3, cuts: [u32; 2]) -> Result<Mesh, WallError> {
     for count in cuts {
         WallError::within("rectangle", "number of pieces", count.into(), (1.0, MOST))?;
     }
     let [nu, nv] = cuts;
+    let total = f64::from(nu) * f64::from(nv);
+    WallError::within("rectangle", "number of all pieces", total, (1.0, MOST_PIECES))?;
     let mut points = Vec::new();
     for j in 0..=nv {
         for i in 0..=nu {
@@ -66,7 +72,7 @@ pub fn plate(
 ///
 /// # Errors
 /// [`WallError::OutOfRange`] unless `max` is above `min` along each axis and the element length is
-/// positive and leaves at most 100 000 pieces along an edge.
+/// positive and leaves at most 100 000 pieces along an edge and 10⁷ a face.
 pub fn open_box(
     min: DVec3,
     max: DVec3,
@@ -159,6 +165,8 @@ impl Prism {
         WallError::positive("prism", "radius", self.radius)?;
         WallError::within("prism", "number of sides", self.sides.into(), (3.0, MOST))?;
         WallError::within("prism", "number of segments", self.segments.into(), (1.0, MOST))?;
+        let faces = f64::from(self.sides) * f64::from(self.segments);
+        WallError::within("prism", "number of all faces", faces, (3.0, MOST_PIECES))?;
         WallError::positive("prism", "length", start.distance(end))?;
         let axis = (end - start).normalize();
         let up = self.up - axis * self.up.dot(axis);

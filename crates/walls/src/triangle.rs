@@ -108,3 +108,96 @@ fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
         [c, a, b]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Least value of a convex function on [0, 1] by ternary search.
+    fn least(f: impl Fn(f64) -> f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..80 {
+            let third = (high - low) / 3.0;
+            if f(low + third) < f(high - third) {
+                high -= third;
+            } else {
+                low += third;
+            }
+        }
+        f(0.5 * (low + high)).min(f(0.0)).min(f(1.0))
+    }
+
+    /// Distance by brute force: the distance is a convex function over the triangle.
+    fn searched([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+        least(|u| least(|v| (a + ((b - a) + (c - b) * v) * u - point).length()))
+    }
+
+    fn vector(size: f64) -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-size..size).prop_map(DVec3::from_array)
+    }
+
+    proptest! {
+        #[test]
+        fn distance_as_by_brute_force(
+            a in vector(1.0), b in vector(1.0), c in vector(1.0), point in vector(1.5),
+            // From well shaped to slivers a million times longer than wide.
+            width in prop_oneof![Just(1.0), Just(1e-3), Just(1e-6)],
+        ) {
+            let c = a + (b - a) * 0.4 + (c - a) * width;
+            let Some(triangle) = Triangle::new([a, b, c]) else { return Ok(()) };
+            let (distance, normal) = triangle.nearest(point, 10.0).unwrap();
+            let expected = searched([a, b, c], point);
+            // The search is good to about sqrt(rounding) in position, rounding in distance
+            // unless that is small.
+            prop_assert!((distance - expected).abs() < 1e-7, "{distance} {expected}");
+            prop_assert!(distance <= expected + 1e-14);
+            prop_assert!((normal.length() - 1.0).abs() < 1e-14);
+            // The closest point is on the triangle.
+            prop_assert!(searched([a, b, c], point + normal * distance) < 1e-7);
+            // The limit cuts exactly there.
+            prop_assert!(triangle.nearest(point, distance * (1.0 - 1e-9)).is_none());
+            prop_assert!(triangle.nearest(point, distance * (1.0 + 1e-9)).is_some());
+        }
+
+        #[test]
+        fn distance_as_by_parry(
+            a in vector(1.0), b in vector(1.0), c in vector(1.0), point in vector(1.5),
+        ) {
+            use parry3d::query::PointQuery;
+            let Some(triangle) = Triangle::new([a, b, c]) else { return Ok(()) };
+            let (distance, _) = triangle.nearest(point, 10.0).unwrap();
+            let other = parry3d::shape::Triangle::new(a, b, c);
+            let expected = other.distance_to_local_point(point, false);
+            prop_assert!((distance - expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn corners_edges_and_face_of_a_known_triangle() {
+        let t = Triangle::new([DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 4.0]).unwrap();
+        let at = |x, y, z| t.nearest(DVec3::new(x, y, z), 100.0).unwrap();
+        assert_eq!(at(1.0, 1.0, 2.0), (2.0, -DVec3::Z));
+        assert_eq!(at(1.0, 1.0, -2.0), (2.0, DVec3::Z));
+        assert_eq!(at(-3.0, -4.0, 0.0).0, 5.0);
+        assert_eq!(at(1.0, -2.0, 0.0), (2.0, DVec3::Y));
+        // The hypotenuse 4x + 3y = 12 from (3, 4): (12 + 12 - 12)/5.
+        assert!((at(3.0, 4.0, 0.0).0 - 2.4).abs() < 1e-15);
+        // On the face, the edge and the corner itself: distance 0 and a unit direction.
+        for (x, y) in [(1.0, 1.0), (1.5, 0.0), (0.0, 0.0), (1.5, 2.0)] {
+            let (distance, normal) = at(x, y, 0.0);
+            assert!(distance < 1e-15 && (normal.length() - 1.0).abs() < 1e-15);
+        }
+        assert!(t.nearest(DVec3::NAN, 1.0).is_none());
+    }
+
+    #[test]
+    fn no_area_is_no_triangle() {
+        let (a, b) = (DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.7, -0.1, 0.9));
+        assert!(Triangle::new([a, a, a]).is_none());
+        assert!(Triangle::new([a, b, a]).is_none());
+        assert!(Triangle::new([a, b, a.lerp(b, 0.3)]).is_none());
+        assert!(Triangle::new([a, b, a.lerp(b, 0.3) + DVec3::Y * 1e-12]).is_some());
+        assert!(Triangle::new([DVec3::ZERO, DVec3::X * 1e-200, DVec3::Y * 1e-200]).is_none());
+    }
+}
