@@ -3,8 +3,12 @@
 mod pair;
 pub mod parabola;
 mod profile;
+mod shipped;
+mod table;
 
 pub use pair::{Kind, Pair};
+pub use shipped::{NamedPair, pairs as shipped_pairs, read_pairs};
+pub use table::{Lookup, TransferTable};
 
 use pendular_pair::OutOfRange;
 

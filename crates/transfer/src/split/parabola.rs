@@ -201,6 +201,7 @@ mod tests {
 
     #[test]
     fn solutions_satisfy_all_equations() {
+        let mut solved = 0;
         let mates = [
             Mate::Sphere { radius: 5e-3 },
             Mate::Sphere { radius: 1.5e-3 },
@@ -216,9 +217,11 @@ mod tests {
                     let worst = residuals(&p, &found, v).into_iter().map(f64::abs);
                     let worst = worst.fold(0.0, f64::max);
                     assert!(worst < 1e-9, "{mate:?} {deg:?} {v_star}: {worst}");
+                    solved += 1;
                 }
             }
         }
+        assert!(solved >= 55, "{solved} of 60");
     }
 
     /// From an independent solver (MINPACK on both angles at once, random starts).
@@ -241,11 +244,10 @@ mod tests {
 
     #[test]
     fn equal_bodies_share_equally() {
-        for deg in [0.0, 15.0, 40.0, 70.0] {
-            for v_star in [1e-3, 0.1, 0.3] {
+        for deg in [5.0, 15.0, 40.0, 60.0] {
+            for v_star in [1e-2, 0.1, 0.3] {
                 let p = pair(2.0, Mate::Sphere { radius: 2.0 }, [deg, deg]);
-                let Ok(s) = split(&p, p.volume(v_star)) else { continue };
-                assert_relative_eq!(s.transfer_ratio(), 0.5, max_relative = 1e-12);
+                assert_relative_eq!(ratio(&p, v_star), 0.5, max_relative = 1e-12);
             }
         }
     }

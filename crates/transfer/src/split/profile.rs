@@ -46,9 +46,9 @@ impl Bodies {
         FRAC_PI_2 - self.angles[body]
     }
 
-    /// Slope of the profile away from a body, −Y'(0) or Y'(d_lb): cot(θ + β).
+    /// Slope of the profile towards a body, −Y'(0) or Y'(d_lb): cot(θ + β), not below 0.
     fn slope(&self, body: usize, half_filling: f64) -> f64 {
-        (FRAC_PI_2 - (self.angles[body] + half_filling)).tan()
+        (FRAC_PI_2 - (self.angles[body] + half_filling)).tan().max(0.0)
     }
 
     fn immersion(&self, body: usize, half_filling: f64) -> f64 {
@@ -79,9 +79,11 @@ impl Bodies {
         let length = self.length(beta);
         let radii = self.contact_radii(beta);
         let a = (slopes[0] + slopes[1]) / (2.0 * length);
-        let neck_position = slopes[0] / (2.0 * a);
+        // A cylinder has its neck everywhere: call it the middle.
+        let share = if a > 0.0 { slopes[0] / (slopes[0] + slopes[1]) } else { 0.5 };
+        let neck_position = share * length;
         let neck_radius = radii[0] - 0.5 * slopes[0] * neck_position;
-        let sides = [neck_position, slopes[1] / (2.0 * a)];
+        let sides = [neck_position, length - neck_position];
         let immersion = [self.immersion(0, beta[0]), self.immersion(1, beta[1])];
         let side = |k: usize| {
             let cap = if k == 0 || self.second_cap { cap(radii[k], immersion[k]) } else { 0.0 };
