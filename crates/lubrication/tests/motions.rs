@@ -65,12 +65,16 @@ fn a_free_sphere_stops_where_its_momentum_is_spent() {
             let start = 1e-4;
             let impulse = drag.impulse(start);
             let speed = 0.6 * impulse / mass;
-            let (mut s, mut v, h) = (start, -speed, 2e-8);
-            while v < -1e-7 * speed {
-                // midpoint rule
-                let (s2, v2) = (s + 0.5 * h * v, v - 0.5 * h * drag.coefficient(s) * v / mass);
-                s += h * v2;
-                v -= h * drag.coefficient(s2) * v2 / mass;
+            let accelerate = |s: f64, v: f64| -drag.coefficient(s) * v / mass;
+            let (mut s, mut v, h) = (start, -speed, 1e-8);
+            while v < -1e-9 * speed {
+                // Runge-Kutta
+                let (v1, a1) = (v, accelerate(s, v));
+                let (v2, a2) = (v + 0.5 * h * a1, accelerate(s + 0.5 * h * v1, v + 0.5 * h * a1));
+                let (v3, a3) = (v + 0.5 * h * a2, accelerate(s + 0.5 * h * v2, v + 0.5 * h * a2));
+                let (v4, a4) = (v + h * a3, accelerate(s + h * v3, v + h * a3));
+                s += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+                v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
             }
             let spent = (impulse - drag.impulse(s)) / (mass * speed);
             assert!((spent - 1.0).abs() < 1e-6, "{model} {gap:?} {spent}");
