@@ -271,4 +271,38 @@ mod tests {
         let q = pair(1e-6, Mate::Sphere { radius: 0.4e-6 }, [40.0, 40.0]);
         assert_relative_eq!(ratio(&p, 0.03), ratio(&q, 0.03), max_relative = 1e-12);
     }
+
+    /// The solution is unique: along the curve of matching angles the volume rises wherever the
+    /// neck is open, and once open the neck stays open.
+    #[test]
+    fn the_volume_rises_along_the_curve_of_matching_angles() {
+        for (radii, deg) in [
+            ([1.0, 1.0], [0.0, 0.0]),
+            ([1.0, 1.0], [40.0, 45.0]),
+            ([1.0, 0.2], [10.0, 10.0]),
+            ([1.0, 0.01], [40.0, 40.0]),
+            ([0.05, 1.0], [60.0, 5.0]),
+            ([1.0, 1.0], [15.0, 80.0]),
+        ] {
+            for gap in [1e-4, 1e-2, 0.1, 1.0] {
+                for second_cap in [true, false] {
+                    let angles = deg.map(f64::to_radians);
+                    let bodies = Bodies { radii, angles, gap, second_cap };
+                    let Some((low, high)) = first_angles(&bodies) else { continue };
+                    let along = (0..=400).map(|k| low + (high - low) * f64::from(k) / 400.0);
+                    let mut before = f64::NEG_INFINITY;
+                    for beta in along {
+                        let p = bodies.profile([beta, second_angle(&bodies, beta)]);
+                        if p.neck_radius > 0.0 {
+                            let volume = p.volumes[0] + p.volumes[1];
+                            assert!(volume > before, "{bodies:?} at {beta}");
+                            before = volume;
+                        } else {
+                            assert_eq!(before, f64::NEG_INFINITY, "{bodies:?} closes at {beta}");
+                        }
+                    }
+                }
+            }
+        }
+    }
 }
