@@ -1,1 +1,4 @@
 //! Tests across the crates.
+
+mod curves;
+mod laws;
