@@ -1,5 +1,5 @@
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
@@ -92,6 +92,7 @@ impl Mesh {
             triangles.push(prepared);
             areas.push(area);
         }
+        give_shared_edges_to_one(&indices, &mut triangles);
         let corners = |t: &[u32; 3]| t.map(|v| points[v as usize]);
         let tree = Tree::new(indices.iter().map(|t| Bounds::around(corners(t))).enumerate());
         let bounds = Bounds::around(indices.iter().flat_map(corners));
@@ -152,7 +153,7 @@ impl Mesh {
 
     pub(crate) fn candidates(&self, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
         self.tree.near(centre, reach, |k| {
-            if self.triangles[k as usize].nearest(centre, reach).is_some() {
+            if self.triangles[k as usize].distance(centre, reach).is_some() {
                 out.push(k);
             }
         });
@@ -168,11 +169,24 @@ impl Mesh {
         out: &mut Vec<Touch>,
     ) {
         for &element in candidates {
-            let hit = self.triangles[element as usize].nearest(centre, radius + reach);
+            let hit = self.triangles[element as usize].hit(centre, radius + reach);
             if let Some((distance, normal)) = hit {
                 out.push(Touch { element, gap: distance - radius, normal });
             }
         }
         merge(out, radius, self.tolerance);
+    }
+}
+
+/// Leaves each edge to the first triangle that has it, so that it is looked at once.
+fn give_shared_edges_to_one(indices: &[[u32; 3]], triangles: &mut [Triangle]) {
+    let mut known = HashSet::new();
+    for (corners, triangle) in indices.iter().zip(triangles) {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            if !known.insert((a.min(b), a.max(b))) {
+                triangle.give_away(k);
+            }
+        }
     }
 }

@@ -13,6 +13,10 @@ pub(crate) struct Triangle {
     inward: [DVec3; 3],
     /// 1/(length of edge k)².
     per_length2: [f64; 3],
+    /// Which of the given corners is the first of `corners`.
+    first: usize,
+    /// Bit k: edge k (of `corners`) belongs to this triangle, not to a neighbour.
+    owned: u8,
 }
 
 impl Triangle {
@@ -21,7 +25,8 @@ impl Triangle {
     /// The normal is made perpendicular to the longest edge to rounding, so that distances hold
     /// even for triangles a million times longer than wide.
     pub(crate) fn new(points: [DVec3; 3]) -> Option<Self> {
-        let corners = longest_edge_first(points);
+        let first = longest_edge(points);
+        let corners = [0, 1, 2].map(|k| points[(first + k) % 3]);
         let edge = corners[1] - corners[0];
         let side = corners[2] - corners[0];
         let along = edge.try_normalize()?;
@@ -47,47 +52,63 @@ impl Triangle {
             normal,
             inward,
             per_length2,
+            first,
+            owned: ALL,
         })
+    }
+
+    /// Gives the edge from the `k`-th given corner to the next one to a neighbour that shares it.
+    pub(crate) fn give_away(&mut self, k: usize) {
+        self.owned &= !(1 << ((k + 3 - self.first) % 3));
+    }
+
+    /// As [`Triangle::distance`], but `None` also where the closest point lies on an edge that
+    /// belongs to a neighbour: the neighbour has the same point or a nearer one.
+    pub(crate) fn hit(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
+        self.nearest(point, limit, self.owned)
     }
 
     /// Distance from `point` and unit vector towards the closest point of the triangle, or `None`
     /// where that is farther than `limit`.
     ///
     /// On the triangle itself (distance 0) the direction is against the triangle's normal.
-    pub(crate) fn nearest(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
-        let height = (point - self.corners[0]).dot(self.normal);
+    pub(crate) fn distance(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
+        self.nearest(point, limit, ALL)
+    }
+
+    /// The closest point, unless it lies on an edge outside `edges`.
+    #[inline(always)]
+    fn nearest(&self, point: DVec3, limit: f64, edges: u8) -> Option<(f64, DVec3)> {
+        let from = self.corners.map(|corner| point - corner);
+        let height = from[0].dot(self.normal);
         if height.abs() > limit {
             return None;
         }
-        let mut inside = true;
-        let mut best = DVec3::ZERO;
-        let mut best2 = f64::INFINITY;
-        for k in 0..3 {
-            let from = point - self.corners[k];
-            let depth = from.dot(self.inward[k]);
-            if depth >= 0.0 {
-                continue;
-            }
-            if depth < -limit {
-                return None;
-            }
-            // The closest point of a convex polygon lies on an edge that the point is outside of.
-            inside = false;
-            let edge = self.corners[(k + 1) % 3] - self.corners[k];
-            let at = (from.dot(edge) * self.per_length2[k]).clamp(0.0, 1.0);
-            let towards = edge * at - from;
-            let distance2 = towards.length_squared();
-            if distance2 < best2 {
-                best2 = distance2;
-                best = towards;
-            }
-        }
-        if inside {
+        let depth = [0, 1, 2].map(|k| from[k].dot(self.inward[k]));
+        if depth[0] >= 0.0 && depth[1] >= 0.0 && depth[2] >= 0.0 {
             let direction = if height < 0.0 { self.normal } else { -self.normal };
             return Some((height.abs(), direction));
         }
+        // The closest point of a convex polygon lies on an edge that the point is outside of.
+        let outside = [0, 1, 2].map(|k| u8::from(depth[k] < 0.0) << k);
+        if (outside[0] | outside[1] | outside[2]) & edges == 0 {
+            return None;
+        }
+        let (mut best, mut best2, mut best_edge) = (DVec3::ZERO, f64::INFINITY, 0);
+        for k in 0..3 {
+            if outside[k] == 0 {
+                continue;
+            }
+            let edge = self.corners[(k + 1) % 3] - self.corners[k];
+            let at = (from[k].dot(edge) * self.per_length2[k]).clamp(0.0, 1.0);
+            let towards = edge * at - from[k];
+            let distance2 = towards.length_squared();
+            if distance2 < best2 {
+                (best, best2, best_edge) = (towards, distance2, outside[k]);
+            }
+        }
         let distance = best2.sqrt();
-        if distance > limit {
+        if distance > limit || best_edge & edges == 0 {
             return None;
         }
         if distance < f64::MIN_POSITIVE.sqrt() {
@@ -97,15 +118,18 @@ impl Triangle {
     }
 }
 
-/// The corners turned round, in the same sense, so that the longest edge comes first.
-fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
+/// All three edges.
+const ALL: u8 = 0b111;
+
+/// Which corner the longest edge starts from.
+fn longest_edge([a, b, c]: [DVec3; 3]) -> usize {
     let (ab, bc, ca) = (a.distance_squared(b), b.distance_squared(c), c.distance_squared(a));
     if ab >= bc && ab >= ca {
-        [a, b, c]
+        0
     } else if bc >= ca {
-        [b, c, a]
+        1
     } else {
-        [c, a, b]
+        2
     }
 }
 
@@ -146,7 +170,7 @@ mod tests {
         ) {
             let c = a + (b - a) * 0.4 + (c - a) * width;
             let Some(triangle) = Triangle::new([a, b, c]) else { return Ok(()) };
-            let (distance, normal) = triangle.nearest(point, 10.0).unwrap();
+            let (distance, normal) = triangle.distance(point, 10.0).unwrap();
             let expected = searched([a, b, c], point);
             // The search is good to about sqrt(rounding) in position, rounding in distance
             // unless that is small.
@@ -156,8 +180,8 @@ mod tests {
             // The closest point is on the triangle.
             prop_assert!(searched([a, b, c], point + normal * distance) < 1e-7);
             // The limit cuts exactly there.
-            prop_assert!(triangle.nearest(point, distance * (1.0 - 1e-9)).is_none());
-            prop_assert!(triangle.nearest(point, distance * (1.0 + 1e-9)).is_some());
+            prop_assert!(triangle.distance(point, distance * (1.0 - 1e-9)).is_none());
+            prop_assert!(triangle.distance(point, distance * (1.0 + 1e-9)).is_some());
         }
 
         #[test]
@@ -166,7 +190,7 @@ mod tests {
         ) {
             use parry3d::query::PointQuery;
             let Some(triangle) = Triangle::new([a, b, c]) else { return Ok(()) };
-            let (distance, _) = triangle.nearest(point, 10.0).unwrap();
+            let (distance, _) = triangle.distance(point, 10.0).unwrap();
             let other = parry3d::shape::Triangle::new(a, b, c);
             let expected = other.distance_to_local_point(point, false);
             prop_assert!((distance - expected).abs() < 1e-12);
@@ -176,7 +200,7 @@ mod tests {
     #[test]
     fn corners_edges_and_face_of_a_known_triangle() {
         let t = Triangle::new([DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 4.0]).unwrap();
-        let at = |x, y, z| t.nearest(DVec3::new(x, y, z), 100.0).unwrap();
+        let at = |x, y, z| t.distance(DVec3::new(x, y, z), 100.0).unwrap();
         assert_eq!(at(1.0, 1.0, 2.0), (2.0, -DVec3::Z));
         assert_eq!(at(1.0, 1.0, -2.0), (2.0, DVec3::Z));
         assert_eq!(at(-3.0, -4.0, 0.0).0, 5.0);
@@ -188,7 +212,7 @@ mod tests {
             let (distance, normal) = at(x, y, 0.0);
             assert!(distance < 1e-15 && (normal.length() - 1.0).abs() < 1e-15);
         }
-        assert!(t.nearest(DVec3::NAN, 1.0).is_none());
+        assert!(t.distance(DVec3::NAN, 1.0).is_none());
     }
 
     #[test]
