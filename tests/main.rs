@@ -1,4 +1,6 @@
 //! Tests across the crates.
 
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
 mod curves;
 mod laws;
