@@ -1,5 +1,5 @@
+use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
@@ -92,7 +92,7 @@ impl Mesh {
             triangles.push(prepared);
             areas.push(area);
         }
-        give_shared_edges_to_one(&indices, &mut triangles);
+        link_neighbours(&indices, &mut triangles);
         let corners = |t: &[u32; 3]| t.map(|v| points[v as usize]);
         let tree = Tree::new(indices.iter().map(|t| Bounds::around(corners(t))).enumerate());
         let bounds = Bounds::around(indices.iter().flat_map(corners));
@@ -178,14 +178,112 @@ impl Mesh {
     }
 }
 
-/// Leaves each edge to the first triangle that has it, so that it is looked at once.
-fn give_shared_edges_to_one(indices: &[[u32; 3]], triangles: &mut [Triangle]) {
-    let mut known = HashSet::new();
-    for (corners, triangle) in indices.iter().zip(triangles) {
+/// Leaves each edge to the first triangle that has it, so that it is looked at once, and tells
+/// that one about its neighbour if there is exactly one.
+fn link_neighbours(indices: &[[u32; 3]], triangles: &mut [Triangle]) {
+    let mut owners: HashMap<(u32, u32), (usize, usize, u32)> = HashMap::new();
+    for (t, corners) in indices.iter().enumerate() {
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            if !known.insert((a.min(b), a.max(b))) {
-                triangle.give_away(k);
+            let (owner, edge, others) = owners.entry((a.min(b), a.max(b))).or_insert((t, k, 0));
+            if *owner == t {
+                continue;
+            }
+            *others += 1;
+            triangles[t].give_away(k);
+            let beyond = if *others == 1 { triangles[t].inward(k) } else { DVec3::ZERO };
+            triangles[*owner].set_beyond(*edge, beyond);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point(size: f64) -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-size..size).prop_map(DVec3::from_array)
+    }
+
+    /// Triangles over a few shared points: edges with one, two and many triangles.
+    fn soup() -> impl Strategy<Value = Mesh> {
+        let indices = prop::collection::vec(prop::array::uniform3(0u32..8), 1..14);
+        (prop::collection::vec(point(1.0), 8), indices).prop_filter_map(
+            "flat",
+            |(points, mut indices)| {
+                indices.retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+                Mesh::new(points, indices).ok()
+            },
+        )
+    }
+
+    /// A rough surface over a grid of 4 x 4 squares.
+    fn surface() -> impl Strategy<Value = Mesh> {
+        (prop::collection::vec(-1.0..1.0, 25), 0.0..0.5).prop_map(|(heights, rough)| {
+            let at = |k: usize| DVec3::new((k % 5) as f64, (k / 5) as f64, rough * heights[k]);
+            let mut indices = Vec::new();
+            for k in (0..19u32).filter(|k| k % 5 != 4) {
+                indices.extend([[k, k + 1, k + 6], [k, k + 6, k + 5]]);
+            }
+            Mesh::new((0..25).map(at).collect(), indices).unwrap()
+        })
+    }
+
+    /// A centre somewhere, or close above a place in, on an edge of or at a corner of a triangle.
+    fn centre(mesh: &Mesh, pick: usize, share: [f64; 2], off: DVec3) -> DVec3 {
+        let [a, b, c] = mesh.indices[pick % mesh.indices.len()].map(|v| mesh.points[v as usize]);
+        a.lerp(b, share[0]).lerp(c, share[1]) + off
+    }
+
+    fn share() -> impl Strategy<Value = [f64; 2]> {
+        prop::array::uniform2(prop_oneof![Just(0.0), Just(1.0), 0.0..1.0])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn leaving_edges_to_neighbours_loses_nothing(
+            mesh in prop_oneof![soup(), surface()], pick in 0usize..100, share in share(),
+            off in prop_oneof![point(0.2), point(1.0), (-0.5..0.5).prop_map(|z| DVec3::Z * z)],
+        ) {
+            let centre = centre(&mesh, pick, share, off);
+            let (radius, reach) = (0.3, 0.5);
+            let (mut candidates, mut found) = (Vec::new(), Vec::new());
+            mesh.candidates(centre, radius + reach, &mut candidates);
+            mesh.touches(&candidates, centre, radius, reach, &mut found);
+            // The nearest of all triangles, each asked on its own.
+            let nearest = mesh
+                .triangles
+                .iter()
+                .filter_map(|t| t.distance(centre, radius + reach))
+                .map(|(distance, _)| distance - radius)
+                .fold(f64::INFINITY, f64::min);
+            prop_assert_eq!(nearest == f64::INFINITY, found.is_empty());
+            if let Some(first) = found.first() {
+                prop_assert!((first.gap - nearest).abs() < 1e-12);
+            }
+            // What is kept was among the hits of single triangles, and every face hit that no
+            // nearer hit hides is kept.
+            let mut single: Vec<Touch> = (0u32..)
+                .zip(&mesh.triangles)
+                .filter_map(|(element, t)| {
+                    let (distance, normal) = t.distance(centre, radius + reach)?;
+                    Some(Touch { element, gap: distance - radius, normal })
+                })
+                .collect();
+            prop_assert!(found.iter().all(|f| single.contains(f)));
+            merge(&mut single, radius, 0.0);
+            let is_face = |t: &Touch| {
+                let [a, b, c] = mesh.indices[t.element as usize].map(|v| mesh.points[v as usize]);
+                (b - a).cross(c - a).normalize().dot(t.normal).abs() > 1.0 - 1e-12
+            };
+            for touch in single.iter().filter(|t| is_face(t)) {
+                let kept = found.iter().any(|f| {
+                    (f.gap - touch.gap).abs() < 1e-12 && (f.normal - touch.normal).length() < 1e-6
+                });
+                prop_assert!(kept, "{:?} of {:?}, kept {:?}", touch, single, found);
             }
         }
     }

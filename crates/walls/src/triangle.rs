@@ -17,6 +17,8 @@ pub(crate) struct Triangle {
     first: usize,
     /// Bit k: edge k (of `corners`) belongs to this triangle, not to a neighbour.
     owned: u8,
+    /// For an owned edge with one neighbour, the neighbour's inward vector across it; else zero.
+    beyond: [DVec3; 3],
 }
 
 impl Triangle {
@@ -54,18 +56,40 @@ impl Triangle {
             per_length2,
             first,
             owned: ALL,
+            beyond: [DVec3::ZERO; 3],
         })
     }
 
-    /// Gives the edge from the `k`-th given corner to the next one to a neighbour that shares it.
-    pub(crate) fn give_away(&mut self, k: usize) {
-        self.owned &= !(1 << ((k + 3 - self.first) % 3));
+    /// Position among `corners` of the edge from the `k`-th given corner to the next one.
+    fn edge(&self, k: usize) -> usize {
+        (k + 3 - self.first) % 3
     }
 
-    /// As [`Triangle::distance`], but `None` also where the closest point lies on an edge that
-    /// belongs to a neighbour: the neighbour has the same point or a nearer one.
+    /// The inward vector across the edge from the `k`-th given corner.
+    pub(crate) fn inward(&self, k: usize) -> DVec3 {
+        self.inward[self.edge(k)]
+    }
+
+    /// Gives the edge from the `k`-th given corner away to a neighbour that shares it.
+    pub(crate) fn give_away(&mut self, k: usize) {
+        self.owned &= !(1 << self.edge(k));
+    }
+
+    /// Tells the inward vector of the one neighbour at the edge from the `k`-th given corner.
+    pub(crate) fn set_beyond(&mut self, k: usize, inward: DVec3) {
+        self.beyond[self.edge(k)] = inward;
+    }
+
+    /// As [`Triangle::distance`], but `None` also where the closest point cannot be one of the
+    /// whole mesh around it, because a neighbour has the same point or a nearer one:
+    ///
+    /// - on an edge that belongs to a neighbour,
+    /// - between the ends of an edge whose neighbour has the point above its inside.
+    ///
+    /// Each time the neighbour is at most as far and of lower number, or truly nearer, so there is
+    /// always one that answers.
     pub(crate) fn hit(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
-        self.nearest(point, limit, self.owned)
+        self.nearest::<true>(point, limit)
     }
 
     /// Distance from `point` and unit vector towards the closest point of the triangle, or `None`
@@ -73,25 +97,37 @@ impl Triangle {
     ///
     /// On the triangle itself (distance 0) the direction is against the triangle's normal.
     pub(crate) fn distance(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
-        self.nearest(point, limit, ALL)
+        self.nearest::<false>(point, limit)
     }
 
-    /// The closest point, unless it lies on an edge outside `edges`.
     #[inline(always)]
-    fn nearest(&self, point: DVec3, limit: f64, edges: u8) -> Option<(f64, DVec3)> {
+    fn nearest<const HIT: bool>(&self, point: DVec3, limit: f64) -> Option<(f64, DVec3)> {
         let from = self.corners.map(|corner| point - corner);
         let height = from[0].dot(self.normal);
         if height.abs() > limit {
             return None;
         }
         let depth = [0, 1, 2].map(|k| from[k].dot(self.inward[k]));
+        let outside = [0, 1, 2].map(|k| u8::from(depth[k] < 0.0) << k);
         if depth[0] >= 0.0 && depth[1] >= 0.0 && depth[2] >= 0.0 {
             let direction = if height < 0.0 { self.normal } else { -self.normal };
             return Some((height.abs(), direction));
         }
         // The closest point of a convex polygon lies on an edge that the point is outside of.
-        let outside = [0, 1, 2].map(|k| u8::from(depth[k] < 0.0) << k);
-        if (outside[0] | outside[1] | outside[2]) & edges == 0 {
+        let mut answering = if HIT { self.owned } else { ALL };
+        let mut at = [0.0; 3];
+        for k in 0..3 {
+            if outside[k] == 0 {
+                continue;
+            }
+            let edge = self.corners[(k + 1) % 3] - self.corners[k];
+            at[k] = from[k].dot(edge) * self.per_length2[k];
+            let between = at[k] > 0.0 && at[k] < 1.0;
+            if HIT && between && from[k].dot(self.beyond[k]) > SURELY_INSIDE * limit {
+                answering &= !outside[k];
+            }
+        }
+        if (outside[0] | outside[1] | outside[2]) & answering == 0 {
             return None;
         }
         let (mut best, mut best2, mut best_edge) = (DVec3::ZERO, f64::INFINITY, 0);
@@ -100,15 +136,14 @@ impl Triangle {
                 continue;
             }
             let edge = self.corners[(k + 1) % 3] - self.corners[k];
-            let at = (from[k].dot(edge) * self.per_length2[k]).clamp(0.0, 1.0);
-            let towards = edge * at - from[k];
+            let towards = edge * at[k].clamp(0.0, 1.0) - from[k];
             let distance2 = towards.length_squared();
             if distance2 < best2 {
                 (best, best2, best_edge) = (towards, distance2, outside[k]);
             }
         }
         let distance = best2.sqrt();
-        if distance > limit || best_edge & edges == 0 {
+        if distance > limit || best_edge & answering == 0 {
             return None;
         }
         if distance < f64::MIN_POSITIVE.sqrt() {
@@ -117,6 +152,10 @@ impl Triangle {
         Some((distance, best / distance))
     }
 }
+
+/// A point is above a neighbour's inside when it is in by this part of the limit: far above
+/// rounding, so that of two triangles not both can leave the answer to the other.
+const SURELY_INSIDE: f64 = 1e-6;
 
 /// All three edges.
 const ALL: u8 = 0b111;
