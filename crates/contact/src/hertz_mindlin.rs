@@ -1,5 +1,5 @@
 use crate::damping::damping_ratio;
-use crate::error::positive;
+use crate::error::{positive, within};
 use crate::material::{DEFAULT_RATIO, checked_ratio};
 use crate::{ContactError, Dashpot, NormalContact};
 
@@ -92,6 +92,7 @@ impl HertzMindlin {
         positive("reduced mass", reduced_mass)?;
         let alpha = 5.0_f64.sqrt() * damping_ratio(restitution, dashpot)?;
         let damping = alpha * reduced_mass.sqrt() * (self.slope / 1.5).sqrt();
+        within("damping", damping, (0.0, f64::MAX))?;
         Ok(Self { damping, dashpot, ..self })
     }
 

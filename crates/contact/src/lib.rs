@@ -1,4 +1,4 @@
-//! Dry contact laws of spheres, in scalars: what a DEM code needs to know of one contact.
+#![doc = include_str!("../README.md")]
 
 mod any;
 mod damping;
@@ -9,6 +9,7 @@ mod impact;
 mod law;
 mod linear;
 mod material;
+mod plastic_energy;
 
 pub use any::{AnyContact, ContactModel, UnknownContact};
 pub use damping::{Dashpot, damping_ratio, dashpot, restitution};
