@@ -68,7 +68,9 @@ pub enum SimulationError {
         term: &'static str,
     },
     /// Bodies overlap too much at the start.
-    #[error("particle {first} overlaps {second:?} by {overlap:.3e} m at the start, more than {allowed:.3e} m")]
+    #[error(
+        "particle {first} overlaps {second:?} by {overlap:.3e} m at the start, more than {allowed:.3e} m"
+    )]
     StartOverlap {
         /// The particle.
         first: u32,

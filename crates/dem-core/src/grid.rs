@@ -67,9 +67,7 @@ impl Grid {
     #[inline]
     pub(crate) fn around(&self, x: DVec3, mut see: impl FnMut(u32)) {
         let at = self.at(x);
-        let span = |axis: usize| {
-            ((at[axis] - 1).max(0), (at[axis] + 1).min(self.counts[axis] - 1))
-        };
+        let span = |axis: usize| ((at[axis] - 1).max(0), (at[axis] + 1).min(self.counts[axis] - 1));
         let ((x0, x1), (y0, y1), (z0, z1)) = (span(0), span(1), span(2));
         for z in z0..=z1 {
             for y in y0..=y1 {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::chunk::{Chunk, List, Note, Roll};
 use crate::integrate::{Bodies, Moved, integrate};
-use crate::limit::{self, Limit};
+use crate::limit::Limit;
 use crate::order::chunk_size;
 use crate::particles::{Particles, Place};
 use crate::pass::{self, View};
@@ -402,7 +402,7 @@ fn check<T: PairTerm>(
         }
     }
     let classes = particles.classes();
-    let limit = limit::packing(classes, &term.stability(classes));
+    let limit = Limit::packing(classes, &term.stability(classes));
     if settings.time_step > limit.time_step && !settings.allow_unstable {
         return Err(SimulationError::TimeStep {
             time_step: settings.time_step,
@@ -451,9 +451,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// visit of the term to every pair that ends with them.
     fn leave(&mut self) -> Result<(), SimulationError> {
         let outside = |x: DVec3| {
-            self.settings.domain.is_some_and(|(low, high)| {
-                !(x.cmpge(low).all() && x.cmple(high).all())
-            })
+            self.settings
+                .domain
+                .is_some_and(|(low, high)| !(x.cmpge(low).all() && x.cmple(high).all()))
         };
         let places = self.particles.places.iter().enumerate();
         let leaving: Vec<u32> =
@@ -493,8 +493,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 }
             }
             for wall in &chunk.walls {
-                if wall.memories.is_empty()
-                    || !(goes(wall.slot) || !boundary.is_present(wall.part))
+                if wall.memories.is_empty() || !(goes(wall.slot) || !boundary.is_present(wall.part))
                 {
                     continue;
                 }

@@ -121,11 +121,8 @@ fn pair<B: Boundary, const ROLLS: bool>(
     let r = view.places[slot].r;
     let v = &view.velocities[slot];
     let velocity = v.v - boundary.velocity(part);
-    let half_step_normal = if before == touch.normal {
-        touch.normal
-    } else {
-        (before + touch.normal).normalize()
-    };
+    let half_step_normal =
+        if before == touch.normal { touch.normal } else { (before + touch.normal).normalize() };
     let along = velocity.dot(half_step_normal);
     let mut pair = Pair {
         encounter,

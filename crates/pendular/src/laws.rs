@@ -1,6 +1,4 @@
-use pendular_lubrication::{
-    NormalCurve, NormalDrag, Resistance, TangentialCurve, TangentialDrag,
-};
+use pendular_lubrication::{NormalCurve, NormalDrag, Resistance, TangentialCurve, TangentialDrag};
 use pendular_pair::{Bridge, OutOfRange};
 use pendular_transfer::{AnyRupture, Dynamic};
 

@@ -91,7 +91,11 @@ impl Ledger {
     /// (total − initial total)/initial total: what rounding has gained or lost. 0 without liquid.
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        if self.initial == 0.0 { self.total() } else { (self.total() - self.initial) / self.initial }
+        if self.initial == 0.0 {
+            self.total()
+        } else {
+            (self.total() - self.initial) / self.initial
+        }
     }
 
     /// An empty account for a new bridge.

@@ -340,8 +340,7 @@ where
             )),
         };
         let split = self.split.split(&bridge);
-        let split =
-            split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
+        let split = split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
         self.live.resize((account as usize + 1).max(self.live.len()), None);
         self.live[account as usize] = Some(Live { split });
         Ok(hold)
@@ -531,10 +530,8 @@ where
         classes: &[Class],
     ) -> Result<StabilityLoad, OutOfRange> {
         let largest = classes.iter().fold(0.0_f64, |r, other| r.max(other.radius()));
-        let pairs = [
-            (&self.between, Mate::Sphere { radius: largest }),
-            (&self.with_walls, Mate::PLANE),
-        ];
+        let pairs =
+            [(&self.between, Mate::Sphere { radius: largest }), (&self.with_walls, Mate::PLANE)];
         let mut most = StabilityLoad::default();
         for (laws, mate) in pairs {
             // The drag coefficients at contact hardly depend on the volume.

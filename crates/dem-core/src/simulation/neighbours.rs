@@ -201,9 +201,7 @@ impl<C: Copy + Default + Send + Sync> Carried<C> {
         }
         let chunks = &mut simulation.chunks;
         for ((chunk, inside), across) in chunks.iter_mut().zip(inside).zip(across) {
-            for (list, mut pairs) in
-                [(&mut chunk.inside, inside), (&mut chunk.across, across)]
-            {
+            for (list, mut pairs) in [(&mut chunk.inside, inside), (&mut chunk.across, across)] {
                 pairs.sort_unstable_by_key(|(entry, _)| lists::key(*entry, &chunk.range));
                 (list.active, list.columns) = pairs.into_iter().unzip();
             }

@@ -1,0 +1,178 @@
+//! Values of a scene that no type can rule out.
+
+use std::path::Path;
+
+use pendular::capillary::AnyCapillary;
+use pendular::lubrication::{NormalModel, TangentialModel};
+use pendular::transfer::AnyRupture;
+
+use crate::error::SceneError;
+use crate::scene::{LiquidSpec, Packing, Scene};
+
+/// Names one wrong value.
+struct Check<'a> {
+    file: &'a Path,
+}
+
+impl Check<'_> {
+    fn fail(&self, key: &str, value: impl ToString, allowed: impl ToString) -> SceneError {
+        SceneError::Value {
+            file: self.file.to_path_buf(),
+            key: key.to_owned(),
+            value: value.to_string(),
+            allowed: allowed.to_string(),
+        }
+    }
+
+    fn positive(&self, key: &str, value: f64) -> Result<(), SceneError> {
+        if value > 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        Err(self.fail(key, value, "a finite number above 0"))
+    }
+
+    fn within(&self, key: &str, value: f64, low: f64, high: f64) -> Result<(), SceneError> {
+        if (low..=high).contains(&value) {
+            return Ok(());
+        }
+        Err(self.fail(key, value, format!("{low} to {high}")))
+    }
+
+    fn name<T: std::str::FromStr>(&self, key: &str, name: &str) -> Result<(), SceneError>
+    where
+        T::Err: std::fmt::Display,
+    {
+        name.parse::<T>().map(|_| ()).map_err(|e| self.fail(key, format!("`{name}`"), e))
+    }
+}
+
+/// Checks all values of a scene; the first wrong one is reported with its key and what is allowed.
+pub(crate) fn check(scene: &Scene, file: &Path) -> Result<(), SceneError> {
+    let check = Check { file };
+    check.positive("time", scene.time)?;
+    check.positive("output_interval", scene.output_interval)?;
+    if let Some(step) = scene.time_step {
+        check.positive("time_step", step)?;
+    }
+    for (axis, g) in scene.gravity.iter().enumerate() {
+        check.within(&format!("gravity[{axis}]"), *g, -1e3, 1e3)?;
+    }
+    materials(scene, &check)?;
+    classes(scene, &check)?;
+    screen(scene, &check)?;
+    scene.liquid.as_ref().map_or(Ok(()), |liquid| wet(liquid, &check))
+}
+
+fn materials(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
+    for (name, material) in &scene.materials {
+        let key = |what: &str| format!("materials.{name}.{what}");
+        check.positive(&key("youngs_modulus"), material.youngs_modulus)?;
+        check.within(&key("poisson_ratio"), material.poisson_ratio, 0.0, 0.5)?;
+        check.within(&key("contact_angle_deg"), material.contact_angle_deg, 0.0, 179.999)?;
+    }
+    for (k, pair) in scene.contacts.iter().enumerate() {
+        let key = |what: &str| format!("contacts[{k}].{what}");
+        for name in &pair.between {
+            known_material(scene, check, &key("between"), name)?;
+        }
+        check.within(&key("friction"), pair.friction, 0.0, 10.0)?;
+        check.within(&key("rolling_friction"), pair.rolling_friction, 0.0, 1.0)?;
+        check.within(&key("restitution"), pair.restitution, 1e-3, 1.0)?;
+    }
+    check.positive("contact.stiffness", scene.contact.stiffness)?;
+    if let Some(ratio) = scene.contact.tangential_ratio {
+        check.within("contact.tangential_ratio", ratio, 0.0, 2.0)?;
+    }
+    Ok(())
+}
+
+fn known_material(
+    scene: &Scene,
+    check: &Check<'_>,
+    key: &str,
+    name: &str,
+) -> Result<(), SceneError> {
+    if scene.material(name).is_some() {
+        return Ok(());
+    }
+    let known: Vec<_> = scene.materials.keys().map(String::as_str).collect();
+    Err(check.fail(key, format!("`{name}`"), known.join(", ")))
+}
+
+fn classes(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
+    if scene.classes.is_empty() {
+        return Err(check.fail("classes", "an empty list", "at least one size class"));
+    }
+    for (k, class) in scene.classes.iter().enumerate() {
+        let key = |what: &str| format!("classes[{k}].{what}");
+        known_material(scene, check, &key("material"), &class.material)?;
+        check.positive(&key("diameter_mm"), class.diameter_mm)?;
+        check.positive(&key("density"), class.density)?;
+        match (class.mass_g, class.count) {
+            (Some(mass), None) => check.positive(&key("mass_g"), mass)?,
+            (None, Some(_)) => {}
+            (Some(_), Some(_)) => {
+                return Err(check.fail(&key("count"), "both count and mass_g", "one of the two"));
+            }
+            (None, None) if matches!(scene.packing, Packing::File { .. }) => {}
+            (None, None) => {
+                return Err(check.fail(&key("mass_g"), "nothing", "mass_g or count"));
+            }
+        }
+        if scene.classes[..k].iter().any(|other| other.name == class.name) {
+            return Err(check.fail(&key("name"), &class.name, "a name of its own"));
+        }
+    }
+    for (a, first) in scene.classes.iter().enumerate() {
+        let others = scene.classes[a..].iter().map(|c| &c.material);
+        for other in others.chain([&scene.screen.material]) {
+            let found = scene.contacts.iter().any(|pair| {
+                let [x, y] = &pair.between;
+                (x == &first.material && y == other) || (y == &first.material && x == other)
+            });
+            if !found && scene.material(other).is_some() {
+                let missing = format!("no pair {} with {other}", first.material);
+                return Err(check.fail("contacts", missing, "an entry for every pair in use"));
+            }
+        }
+    }
+    if let Packing::Random { solid_fraction, clearance_mm } = &scene.packing {
+        check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
+        check.within("packing.clearance_mm", *clearance_mm, 0.0, 1e4)?;
+    }
+    Ok(())
+}
+
+fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
+    let screen = &scene.screen;
+    known_material(scene, check, "screen.material", &screen.material)?;
+    check.positive("screen.aperture_mm", screen.aperture_mm)?;
+    check.positive("screen.wire_diameter_mm", screen.wire_diameter_mm)?;
+    check.positive("screen.diameter_mm", screen.diameter_mm)?;
+    check.positive("screen.height_mm", screen.height_mm)?;
+    check.positive("screen.collect_below_mm", screen.collect_below_mm)?;
+    check.within("screen.wire_sides", f64::from(screen.wire_sides), 3.0, 256.0)?;
+    check.within("motion.frequency", scene.motion.frequency, 0.0, 1e5)?;
+    for axis in 0..3 {
+        let amplitude = scene.motion.amplitude_mm[axis];
+        check.within(&format!("motion.amplitude_mm[{axis}]"), amplitude, 0.0, 1e3)?;
+        let phase = scene.motion.phase_deg[axis];
+        check.within(&format!("motion.phase_deg[{axis}]"), phase, -360.0, 360.0)?;
+    }
+    Ok(())
+}
+
+fn wet(liquid: &LiquidSpec, check: &Check<'_>) -> Result<(), SceneError> {
+    check.within("liquid.moisture_percent", liquid.moisture_percent, 0.0, 100.0)?;
+    check.positive("liquid.density", liquid.density)?;
+    check.positive("liquid.surface_tension", liquid.surface_tension)?;
+    check.positive("liquid.viscosity", liquid.viscosity)?;
+    check.within("liquid.roughness_share", liquid.roughness_share, 1e-9, 1.0)?;
+    check.name::<AnyCapillary>("liquid.capillary", &liquid.capillary)?;
+    check.name::<AnyCapillary>("liquid.capillary_wall", &liquid.capillary_wall)?;
+    check.name::<NormalModel>("liquid.normal_drag", &liquid.normal_drag)?;
+    check.name::<TangentialModel>("liquid.tangential_drag", &liquid.tangential_drag)?;
+    check.name::<TangentialModel>("liquid.tangential_drag_wall", &liquid.tangential_drag_wall)?;
+    check.name::<AnyRupture>("liquid.rupture", &liquid.rupture)?;
+    check.name::<AnyRupture>("liquid.rupture_wall", &liquid.rupture_wall)
+}

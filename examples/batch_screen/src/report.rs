@@ -1,0 +1,190 @@
+//! What a run says before and after: header, final table, summary.json.
+
+use std::io::Write;
+use std::path::Path;
+
+use serde_json::json;
+
+use crate::build::{Built, Derived};
+use crate::error::RunError;
+use crate::output::{groups, retained};
+use crate::run::{Outcome, wall_speed};
+use crate::scene::{Scene, WireKind};
+
+/// What the run is about to do, with the numbers that follow from the scene.
+pub(crate) fn header(scene: &Scene, built: &Built) -> String {
+    let mut text = format!("{}\n", scene.title);
+    let derived = &built.derived;
+    for (k, class) in scene.classes.iter().enumerate() {
+        let (count, mass) = (derived.counts[k], derived.masses[k]);
+        text += &format!(
+            "  {:<12} {:>6} spheres of {} mm, {:.1} g\n",
+            class.name,
+            count,
+            class.diameter_mm,
+            1e3 * count as f64 * mass
+        );
+    }
+    let screen = &scene.screen;
+    let wires = match screen.wires {
+        WireKind::Cylinders => "exact cylinders".to_owned(),
+        WireKind::Mesh => format!("prisms of {} sides", screen.wire_sides),
+    };
+    text += &format!(
+        "  screen       a = {} mm, w = {} mm, diameter {} mm, wires as {wires}\n",
+        screen.aperture_mm, screen.wire_diameter_mm, screen.diameter_mm
+    );
+    text += &format!(
+        "  motion       {} Hz, amplitude {:?} mm, at most {:.3} m/s\n",
+        scene.motion.frequency,
+        scene.motion.amplitude_mm,
+        wall_speed(&built.walls)
+    );
+    match &scene.liquid {
+        None => text += "  liquid       none: a dry run\n",
+        Some(liquid) => {
+            text += &format!(
+                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n",
+                liquid.moisture_percent,
+                1e6 * derived.liquid,
+                1e6 * derived.film,
+                liquid.capillary,
+                liquid.normal_drag,
+                liquid.tangential_drag,
+                liquid.rupture
+            );
+        }
+    }
+    text += &format!("  time step    {:.3e} s", built.settings.time_step);
+    text
+}
+
+/// The final table.
+pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> String {
+    let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
+    let (total, classes) = retained(&outcome.tally, &outcome.first, &derived.masses, density);
+    let tally = &outcome.tally;
+    let mut text = format!("after {:.3} s\n", tally.time);
+    text += "  class          start   above  passed   fraction retained\n";
+    for (k, class) in scene.classes.iter().enumerate() {
+        text += &format!(
+            "  {:<12} {:>7} {:>7} {:>7}   {:.4}\n",
+            class.name, derived.counts[k], tally.above[k], tally.passed[k], classes[k]
+        );
+    }
+    let sum = |v: &[u64]| v.iter().sum::<u64>();
+    text += &format!(
+        "  {:<12} {:>7} {:>7} {:>7}   {total:.4}\n",
+        "all",
+        sum(&derived.counts),
+        sum(&tally.above),
+        sum(&tally.passed)
+    );
+    if tally.escaped > 0 {
+        text +=
+            &format!("  {} particles left in another way than through the screen\n", tally.escaped);
+    }
+    if scene.liquid.is_some() {
+        let ul = |volume: f64| 1e9 * volume;
+        text += &format!(
+            "  liquid [ul]: {:.1} on particles above, {:.1} on fines, {:.1} on walls, {:.1} in {} bridges\n",
+            ul(tally.film.iter().sum()),
+            ul(tally.fines),
+            ul(tally.parts.iter().sum()),
+            ul(tally.bridges),
+            tally.counts.formed - tally.counts.ruptured
+        );
+        text += &format!(
+            "  {} bridges formed, {} outside a law's range; liquid imbalance {:.1e}\n",
+            tally.counts.formed, tally.counts.extrapolated, tally.imbalance
+        );
+    }
+    let seconds = outcome.wall_time.as_secs_f64();
+    text += &format!(
+        "  {} steps in {seconds:.1} s; largest overlap {:.2} % of a radius",
+        outcome.steps,
+        100.0 * outcome.largest_overlap
+    );
+    text
+}
+
+/// Writes `summary.json`.
+pub(crate) fn summary(
+    path: &Path,
+    scene: &Scene,
+    source: &str,
+    settings: &pendular::dem::Settings,
+    derived: &Derived,
+    outcome: &Outcome,
+    parts: &[String],
+) -> Result<(), RunError> {
+    let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
+    let (total, classes) = retained(&outcome.tally, &outcome.first, &derived.masses, density);
+    let tally = &outcome.tally;
+    let names: Vec<&str> = scene.classes.iter().map(|class| class.name.as_str()).collect();
+    let by_class = |values: Vec<serde_json::Value>| -> serde_json::Map<_, _> {
+        names.iter().map(|n| (*n).to_owned()).zip(values).collect()
+    };
+    let walls: serde_json::Map<String, serde_json::Value> = groups(parts)
+        .into_iter()
+        .map(|(name, members)| {
+            let volume: f64 = members.iter().map(|&k| tally.parts[k]).sum();
+            (name, json!(volume))
+        })
+        .collect();
+    let profile = outcome.profile;
+    let document = json!({
+        "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
+        "scene": source,
+        "title": scene.title,
+        "assumptions": {
+            "screen_diameter_mm": scene.screen.diameter_mm,
+            "amplitude_mm": scene.motion.amplitude_mm,
+        },
+        "derived": {
+            "time_step_s": settings.time_step,
+            "particles": by_class(derived.counts.iter().map(|n| json!(n)).collect()),
+            "solid_mass_kg": derived.solid_mass,
+            "liquid_m3": derived.liquid,
+            "film_m": derived.film,
+        },
+        "time_s": tally.time,
+        "steps": outcome.steps,
+        "threads": settings.threads,
+        "fraction_retained": {
+            "total": total,
+            "by_class": by_class(classes.iter().map(|y| json!(y)).collect()),
+        },
+        "passed": by_class(tally.passed.iter().map(|n| json!(n)).collect()),
+        "above": by_class(tally.above.iter().map(|n| json!(n)).collect()),
+        "escaped": tally.escaped,
+        "bridges": {
+            "formed": tally.counts.formed,
+            "ruptured": tally.counts.ruptured,
+            "alive": tally.counts.formed - tally.counts.ruptured,
+            "outside_law_range": tally.counts.extrapolated,
+        },
+        "liquid_m3": {
+            "above": by_class(tally.film.iter().map(|v| json!(v)).collect()),
+            "fines": tally.fines,
+            "walls": walls,
+            "bridges": tally.bridges,
+        },
+        "liquid_imbalance": tally.imbalance,
+        "largest_overlap": outcome.largest_overlap,
+        "wall_time_s": outcome.wall_time.as_secs_f64(),
+        "time_split_s": {
+            "neighbours": profile.neighbours.as_secs_f64(),
+            "pairs": profile.pairs.as_secs_f64(),
+            "walls": profile.walls.as_secs_f64(),
+            "settling": profile.settling.as_secs_f64(),
+            "integration": profile.integration.as_secs_f64(),
+        },
+    });
+    let write = || -> std::io::Result<()> {
+        let mut file = std::fs::File::create(path)?;
+        serde_json::to_writer_pretty(&mut file, &document)?;
+        file.write_all(b"\n")
+    };
+    write().map_err(|source| RunError::Write { path: path.to_path_buf(), source })
+}

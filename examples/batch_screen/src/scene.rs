@@ -1,0 +1,256 @@
+//! Scene files: what a run needs to know, as TOML.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::error::SceneError;
+
+/// A screening scene. Units are SI unless the key's name says another one.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Scene {
+    /// One line that says what this is.
+    pub(crate) title: String,
+    /// Simulated time, s.
+    pub(crate) time: f64,
+    /// Time step, s; a share of the stability limit where it is left out.
+    #[serde(default)]
+    pub(crate) time_step: Option<f64>,
+    /// Seed of the packing.
+    #[serde(default = "one")]
+    pub(crate) seed: u64,
+    /// Time between rows of the results, s.
+    pub(crate) output_interval: f64,
+    /// Gravity, m/s².
+    #[serde(default = "earth")]
+    pub(crate) gravity: [f64; 3],
+    /// Materials by name.
+    pub(crate) materials: BTreeMap<String, Material>,
+    /// Friction and restitution of pairs of materials.
+    pub(crate) contacts: Vec<ContactPair>,
+    /// The contact law.
+    pub(crate) contact: ContactLaw,
+    /// Size classes, by diameter.
+    pub(crate) classes: Vec<SizeClass>,
+    /// Where the particles are at the start.
+    pub(crate) packing: Packing,
+    /// The screen and its frame.
+    pub(crate) screen: Screen,
+    /// How the screen moves.
+    pub(crate) motion: ScreenMotion,
+    /// The liquid; a dry run where it is left out.
+    #[serde(default)]
+    pub(crate) liquid: Option<LiquidSpec>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Material {
+    /// Young's modulus, Pa: only its ratios matter here, for the tangential stiffness.
+    pub(crate) youngs_modulus: f64,
+    pub(crate) poisson_ratio: f64,
+    /// Contact angle of the liquid, degrees.
+    pub(crate) contact_angle_deg: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactPair {
+    /// The two materials.
+    pub(crate) between: [String; 2],
+    /// Coulomb friction coefficient.
+    pub(crate) friction: f64,
+    /// Rolling friction, m.
+    pub(crate) rolling_friction: f64,
+    /// Coefficient of restitution of the dry contact.
+    pub(crate) restitution: f64,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ContactLaw {
+    /// Normal stiffness of all contacts, N/m.
+    pub(crate) stiffness: f64,
+    /// Tangential over normal stiffness; from the Poisson ratios where it is left out.
+    #[serde(default)]
+    pub(crate) tangential_ratio: Option<f64>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SizeClass {
+    /// Name in the results.
+    pub(crate) name: String,
+    pub(crate) material: String,
+    pub(crate) diameter_mm: f64,
+    /// Density, kg/m³.
+    pub(crate) density: f64,
+    /// Mass of the whole class, g; or else `count`.
+    #[serde(default)]
+    pub(crate) mass_g: Option<f64>,
+    /// Number of particles; or else `mass_g`.
+    #[serde(default)]
+    pub(crate) count: Option<u64>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, tag = "from", rename_all = "kebab-case")]
+pub(crate) enum Packing {
+    /// Placed at random above the screen, without overlap.
+    Random {
+        /// Share of the space that the particles fill, at most 0.35.
+        solid_fraction: f64,
+        /// Clear height between screen and particles, mm.
+        clearance_mm: f64,
+    },
+    /// Read from a CSV file with the header `id,x,y,z,radius,density`.
+    File {
+        /// The file, relative to the scene file.
+        path: PathBuf,
+    },
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Screen {
+    pub(crate) material: String,
+    pub(crate) aperture_mm: f64,
+    pub(crate) wire_diameter_mm: f64,
+    /// Inner diameter of the round frame, mm.
+    pub(crate) diameter_mm: f64,
+    /// Height of the frame above the wire axes, mm.
+    pub(crate) height_mm: f64,
+    /// Depth below the wire axes at which a particle counts as passed and leaves, mm.
+    pub(crate) collect_below_mm: f64,
+    pub(crate) wires: WireKind,
+    /// Sides of the prisms of `wires = "mesh"`.
+    #[serde(default = "sixteen")]
+    pub(crate) wire_sides: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum WireKind {
+    /// Exact cylinders.
+    Cylinders,
+    /// Triangle-mesh prisms.
+    Mesh,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ScreenMotion {
+    pub(crate) frequency: f64,
+    /// Amplitude along x, y, z, mm: half of the stroke from peak to peak.
+    pub(crate) amplitude_mm: [f64; 3],
+    #[serde(default)]
+    pub(crate) phase_deg: [f64; 3],
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LiquidSpec {
+    /// Mass of liquid over dry mass of particles, percent.
+    pub(crate) moisture_percent: f64,
+    pub(crate) density: f64,
+    pub(crate) surface_tension: f64,
+    pub(crate) viscosity: f64,
+    /// Laws by name.
+    pub(crate) capillary: String,
+    pub(crate) capillary_wall: String,
+    pub(crate) normal_drag: String,
+    pub(crate) tangential_drag: String,
+    pub(crate) tangential_drag_wall: String,
+    /// Roughness of the lubrication gap as a share of the radius.
+    #[serde(default = "thousandth")]
+    pub(crate) roughness_share: f64,
+    pub(crate) rupture: String,
+    pub(crate) rupture_wall: String,
+    pub(crate) dynamic_rupture: DynamicRupture,
+    pub(crate) transfer: Transfer,
+    pub(crate) outside_range: OutsideRange,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum DynamicRupture {
+    None,
+    Pitois,
+    Grohn,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Transfer {
+    Parabola,
+    Half,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum OutsideRange {
+    /// Stop the run.
+    Refuse,
+    /// Go on and count.
+    Extrapolate,
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn earth() -> [f64; 3] {
+    [0.0, 0.0, -9.81]
+}
+
+fn sixteen() -> u32 {
+    16
+}
+
+fn thousandth() -> f64 {
+    0.001
+}
+
+impl Scene {
+    /// Reads a scene from TOML text; `origin` is the file that errors name.
+    pub(crate) fn parse(text: &str, origin: &Path) -> Result<Self, SceneError> {
+        let file = origin.to_path_buf();
+        let syntax = |e: toml::de::Error| SceneError::Syntax {
+            file: file.clone(),
+            key: String::from("."),
+            message: e.to_string(),
+        };
+        let document = toml::Deserializer::parse(text).map_err(syntax)?;
+        let scene: Self = serde_path_to_error::deserialize(document).map_err(|e| {
+            let key = e.path().to_string();
+            SceneError::Syntax { file: file.clone(), key, message: located(text, e.inner()) }
+        })?;
+        crate::check::check(&scene, origin)?;
+        Ok(scene)
+    }
+
+    /// Reads a scene file.
+    pub(crate) fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| SceneError::Unreadable { file: path.to_path_buf(), source })?;
+        Self::parse(&text, path)
+    }
+
+    /// Index of a material in the order of names.
+    pub(crate) fn material(&self, name: &str) -> Option<u8> {
+        self.materials.keys().position(|known| known == name).map(|k| k as u8)
+    }
+}
+
+/// The parser's message, with line and column: those it gives where it has the text, else found
+/// from the span.
+fn located(text: &str, error: &toml::de::Error) -> String {
+    let Some(span) = error.span() else { return error.message().to_owned() };
+    let before = &text[..span.start.min(text.len())];
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+    let source = text.lines().nth(line - 1).unwrap_or("");
+    format!("line {line}, column {column}: {}\n  | {source}", error.message().trim_end())
+}
