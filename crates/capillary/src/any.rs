@@ -6,7 +6,7 @@ use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
 use crate::{
     Bagheri2024, CapillaryLaw, ForceCurve, Lambert2008, Rabinovich2005, RabinovichPlane,
     RabinovichPlaneSmallGap, Soulie2006, Weigert1999, Willett2000Full, Willett2000Reduced,
-    young_laplace::YoungLaplace,
+    tabulated::Tabulated, young_laplace::YoungLaplace,
 };
 
 /// The pairs of bodies that a law is made for.
@@ -143,6 +143,8 @@ any_law! {
         "Rabinovich, Esayanur, Moudgil (2005), Langmuir 21, 10992";
     RabinovichPlaneSmallGap: RabinovichPlaneSmallGap, "rabinovich-plane-small-gap", SpherePlane,
         "Elskamp, Kruggel-Emden (2018), Chem. Eng. Res. Des. 136, 593, eq. (15)";
+    Tabulated: Tabulated, "tabulated", Both,
+        "a table of the exact bridge (`young-laplace`), made by this crate";
     YoungLaplace: YoungLaplace, "young-laplace", Both,
         "solved numerically: constant mean curvature at constant volume";
 }

@@ -17,6 +17,7 @@ mod law;
 mod rabinovich_2005;
 mod rabinovich_plane;
 mod soulie_2006;
+pub mod tabulated;
 mod weigert_1999;
 mod willett_2000_full;
 mod willett_2000_reduced;
