@@ -127,4 +127,16 @@ mod tests {
         let said = "Lian".parse::<AnyRupture>().unwrap_err().to_string();
         assert!(AnyRupture::NAMES.iter().all(|name| said.contains(name)), "{said}");
     }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn serde_reads_and_writes_the_name() {
+        for law in AnyRupture::ALL {
+            let text = serde_json::to_string(&law).unwrap();
+            assert_eq!(text, format!("\"{law}\""));
+            assert_eq!(serde_json::from_str::<AnyRupture>(&text).unwrap(), law);
+        }
+        let said = serde_json::from_str::<AnyRupture>("\"lien\"").unwrap_err().to_string();
+        assert!(said.contains("lien") && said.contains("lian"), "{said}");
+    }
 }

@@ -24,3 +24,8 @@ pub use error::{NoSolution, TableFault, TransferError};
 pub use law::RuptureLaw;
 pub use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
 pub use split::Split;
+
+/// The README's program runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

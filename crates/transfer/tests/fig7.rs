@@ -4,6 +4,8 @@
 //! Two of their sentences contradict the equations; there the tests hold the equations, which an
 //! independent solver and the symmetry of the bodies confirm.
 
+#![allow(clippy::unwrap_used, reason = "tests may panic, their helpers too")]
+
 use pendular_transfer::Mate;
 use pendular_transfer::split::{Pair, parabola};
 

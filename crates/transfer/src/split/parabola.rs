@@ -17,8 +17,11 @@
 //! ([`WillettUnequal2000`](crate::rupture::WillettUnequal2000)): with a large wall of two equal spheres, with a wire of rᵢ and r_w.
 //!
 //! # Range
-//! Against the exact split at the neck of the Young-Laplace bridge the parabola gives the larger
-//! sphere 0.04 too little at 10°, 0.165 at 40°. There is no solution
+//! A rough model. Against the exact split at the neck of the last stable Young-Laplace bridge,
+//! 1e-4 ≤ V* ≤ 0.3, equal contact angles: the larger of two spheres (ratio 2) gets up to 0.13 too much
+//! or too little at 0° and 10°, 0.12 to 0.20 too little at 40°; a sphere gets 0.07 to 0.35 too much at
+//! 10° and 0.21 to 0.44 too much at 40° against a plane, because the profile of two equal spheres does
+//! not know the plane. There is no solution
 //! - with a contact angle of 90° or more, or so much liquid that no neck is left;
 //! - where the neck would close before the gap is reached: small volumes at small (below about
 //!   13°) or unequal contact angles. Then the equations have roots with a neck of negative radius;
