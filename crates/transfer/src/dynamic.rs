@@ -13,7 +13,7 @@ use pendular_pair::{Bridge, OutOfRange};
 /// printed as a vector in Elskamp & Kruggel-Emden (2018), eq. (33), where a number is due.
 ///
 /// # Range
-/// Pitois: measured at Ca up to about 0.1. Grohn: the constants were fitted together with
+/// Pitois: the case of Elskamp & Kruggel-Emden (2018), Fig. 5b, reaches Ca = 0.05. Grohn: the constants were fitted together with
 /// [`Mikami1998`](crate::rupture::Mikami1998) for one liquid and speeds of about 0.3 to 4 m/s;
 /// with another static law, liquid or solid they are an assumption.
 ///

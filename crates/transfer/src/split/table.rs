@@ -24,7 +24,7 @@ const DECADES: i32 = 7;
 /// Interpolation adds less than 5e-4 to the parabola's own error.
 ///
 /// # Cost
-/// [`TransferTable::compute`] solves the parabola at up to 113 volumes: about 2 ms in a release
+/// [`TransferTable::compute`] solves the parabola at up to 113 volumes: about 1 ms in a release
 /// build. A lookup is a binary search.
 ///
 /// # Example
