@@ -176,6 +176,15 @@ mod tests {
     }
 
     #[test]
+    fn tangential_stiffness_is_a_share_of_the_normal_one() {
+        let law = Linear::new(1e5, 0.0).unwrap();
+        // ν = 0.3: 0.7/0.85
+        assert!((law.tangential_stiffness(1.0) / 1e5 - 0.823_529_411_76).abs() < 1e-10);
+        let sheared = law.with_tangential_ratio(2.0 / 7.0).unwrap();
+        assert!((sheared.tangential_stiffness(1.0) - 2e5 / 7.0).abs() < 1e-9);
+    }
+
+    #[test]
     fn elastic_contact_time() {
         let law = Linear::from_restitution(1e5, 1.0, 4e-5).unwrap();
         let half_period = std::f64::consts::PI * (4e-5_f64 / 1e5).sqrt();

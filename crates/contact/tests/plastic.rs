@@ -127,6 +127,18 @@ fn stiffness_is_the_steeper_of_loading_and_unloading() {
     }
 }
 
+#[test]
+fn tangential_stiffness_takes_the_contact_radius() {
+    // 8 G* a = ratio · 2 E* a; area (3 κ − 1) π R* s of (12), 2 π R* s when fully plastic (13)
+    let law = lactose().with_tangential_ratio(0.9).unwrap();
+    let radius = |s: f64| law.tangential_stiffness(s) / (0.9 * 2.0 * MODULUS);
+    let elastic = 0.5 * law.yield_overlap();
+    assert!((radius(elastic).powi(2) / (RADIUS * elastic) - 1.0).abs() < 1e-12);
+    let area = (3.0 * kappa(1e-6) - 1.0) * RADIUS * 1e-6;
+    assert!((radius(1e-6).powi(2) / area - 1.0).abs() < 1e-12);
+    assert!((radius(10.0).powi(2) / (2.0 * RADIUS * 10.0) - 1.0).abs() < 1e-2);
+}
+
 proptest! {
     /// Any path of the overlap: a closed one costs exactly the plastic work of its deepest point.
     #[test]
