@@ -245,7 +245,11 @@ mod tests {
 
         #[test]
         fn leaving_edges_to_neighbours_loses_nothing(
-            mesh in prop_oneof![soup(), surface()], pick in 0usize..100, share in share(),
+            (mesh, sound) in prop_oneof![
+                soup().prop_map(|m| (m, false)),
+                surface().prop_map(|m| (m, true)),
+            ],
+            pick in 0usize..100, share in share(),
             off in prop_oneof![point(0.2), point(1.0), (-0.5..0.5).prop_map(|z| DVec3::Z * z)],
         ) {
             let centre = centre(&mesh, pick, share, off);
@@ -264,8 +268,8 @@ mod tests {
             if let Some(first) = found.first() {
                 prop_assert!((first.gap - nearest).abs() < 1e-12);
             }
-            // What is kept was among the hits of single triangles, and every face hit that no
-            // nearer hit hides is kept.
+            // What is kept was among the hits of single triangles. On a surface that does not
+            // cross itself every face hit that no nearer hit hides is kept.
             let mut single: Vec<Touch> = (0u32..)
                 .zip(&mesh.triangles)
                 .filter_map(|(element, t)| {
@@ -279,9 +283,10 @@ mod tests {
                 let [a, b, c] = mesh.indices[t.element as usize].map(|v| mesh.points[v as usize]);
                 (b - a).cross(c - a).normalize().dot(t.normal).abs() > 1.0 - 1e-12
             };
-            for touch in single.iter().filter(|t| is_face(t)) {
+            for touch in single.iter().filter(|t| sound && is_face(t)) {
+                // In a nearly flat valley (SAME_PLANE) either of two faces may stand for both.
                 let kept = found.iter().any(|f| {
-                    (f.gap - touch.gap).abs() < 1e-12 && (f.normal - touch.normal).length() < 1e-6
+                    (f.gap - touch.gap).abs() < 1e-5 && (f.normal - touch.normal).length() < 5e-3
                 });
                 prop_assert!(kept, "{:?} of {:?}, kept {:?}", touch, single, found);
             }

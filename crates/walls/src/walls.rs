@@ -106,20 +106,28 @@ impl Walls {
         self.time
     }
 
-    /// Displacement of a part from its rest position, m. Panics where there is no such part.
+    /// Displacement of a part from its rest position, m.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     #[must_use]
     pub fn displacement(&self, part: u32) -> DVec3 {
         self.displacements[self.motion_of[part as usize] as usize]
     }
 
-    /// Velocity of a part, m/s. Panics where there is no such part.
+    /// Velocity of a part, m/s.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     #[must_use]
     pub fn velocity(&self, part: u32) -> DVec3 {
         self.velocities[self.motion_of[part as usize] as usize]
     }
 
-    /// Whether a part is there at the present time: `time < present_until`. Panics where there is
-    /// no such part.
+    /// Whether a part is there at the present time: `time < present_until`.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     #[must_use]
     pub fn is_present(&self, part: u32) -> bool {
         self.time < self.parts[part as usize].present_until
@@ -137,8 +145,11 @@ impl Walls {
         self.offsets[self.parts.len()]
     }
 
-    /// Number of a part's first element when the elements of all parts are numbered through in the
-    /// order of the parts. Panics where there is no such part.
+    /// Number of a part's first element when the elements of all parts are numbered through
+    /// in the order of the parts.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     #[must_use]
     pub fn first_element(&self, part: u32) -> u32 {
         self.offsets[..self.parts.len()][part as usize]
@@ -161,23 +172,28 @@ impl Walls {
         out.sort_unstable();
     }
 
-    /// Collects the triangles of a mesh part within `reach` (m) of `centre`, ascending; `out` is
-    /// cleared first. Nothing for the other shapes, which need none. Panics where there is no such
-    /// part.
+    /// Collects the triangles of a mesh part within `reach` (m) of `centre`, ascending; `out`
+    /// is cleared first. Nothing for the other shapes, which need none.
     ///
-    /// As long as sphere and part have moved by less than `skin` against each other, a sphere of
-    /// radius r has all its touches with gap <= g among the candidates of reach r + g + `skin`.
+    /// As long as sphere and part have moved by less than `skin` against each other, a sphere
+    /// of radius r has all its touches with gap <= g among the candidates of reach r + g +
+    /// `skin`.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     pub fn candidates(&self, part: u32, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
         let point = centre - self.displacement(part);
         self.parts[part as usize].shape.candidates(point, reach, out);
     }
 
     /// Collects the touches of a sphere with a part whose gap is at most `reach` (m), nearest
-    /// first; `out` is cleared first. Empty for a part that has been taken away. Panics where
-    /// there is no such part or no such candidate.
+    /// first; `out` is cleared first. Empty for a part that has been taken away.
     ///
     /// A plane, a wire and a frame give at most one touch, a mesh one for each face, ridge or
     /// corner of those among `candidates` that the sphere touches on its own.
+    ///
+    /// # Panics
+    /// Where there is no such part or no such candidate.
     pub fn touches(
         &self,
         part: u32,
@@ -195,8 +211,11 @@ impl Walls {
         }
     }
 
-    /// Triangles for drawing a part where it is now; `sides` is the number of sides of a cylinder.
-    /// Panics where there is no such part.
+    /// Triangles for drawing a part where it is now; `sides` is the number of sides of a
+    /// cylinder.
+    ///
+    /// # Panics
+    /// Where there is no such part.
     #[must_use]
     pub fn tessellation(&self, part: u32, sides: u32) -> Tessellation {
         let mut mesh = self.parts[part as usize].shape.tessellation(sides);
