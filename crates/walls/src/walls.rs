@@ -189,6 +189,9 @@ impl Walls {
     /// Collects the touches of a sphere with a part whose gap is at most `reach` (m), nearest
     /// first; `out` is cleared first. Empty for a part that has been taken away.
     ///
+    /// `candidates` must hold all triangles within radius + `reach`, as [`Walls::candidates`]
+    /// gives them (more do no harm): an edge is looked at by one of its triangles only.
+    ///
     /// A plane, a wire and a frame give at most one touch, a mesh one for each face, ridge or
     /// corner of those among `candidates` that the sphere touches on its own.
     ///
