@@ -4,3 +4,4 @@
 
 mod curves;
 mod laws;
+mod layering;

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use crate::chunk::{Chunk, List, Note, Roll};
+use crate::chunk::{Chunk, List, Note, Roll, WallPair};
 use crate::integrate::{Bodies, Moved, integrate};
 use crate::limit::Limit;
 use crate::order::chunk_size;
@@ -477,6 +477,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let goes = |slot: u32| leaving.binary_search(&slot).is_ok();
         let (term, boundary) = (&self.term, &self.boundary);
         let view = self.view();
+        let stays = |wall: &WallPair<T::Column>| !goes(wall.slot) && boundary.is_present(wall.part);
         let mut visits: Vec<Visit<T::Column>> = Vec::new();
         for chunk in &self.chunks {
             if !leaving.is_empty() {
@@ -493,8 +494,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 }
             }
             for wall in &chunk.walls {
-                if wall.memories.is_empty() || !(goes(wall.slot) || !boundary.is_present(wall.part))
-                {
+                if wall.memories.is_empty() || stays(wall) {
                     continue;
                 }
                 let live = wall.memories.iter().filter(|m| term.live(&m.column));
@@ -506,7 +506,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             }
         }
         for chunk in &mut self.chunks {
-            chunk.walls.retain(|wall| !goes(wall.slot) && boundary.is_present(wall.part));
+            chunk.walls.retain(&stays);
         }
         if visits.is_empty() {
             return Ok(());

@@ -150,8 +150,11 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 /// All live columns, by the ids of their bodies, while the particles change their order.
 pub(super) struct Carried<C> {
     pairs: Vec<([u32; 2], C)>,
-    walls: Vec<(u32, u32, Vec<Memory<C>>, Vec<u32>)>,
+    walls: Vec<CarriedWall<C>>,
 }
+
+/// A wall pair on its way: the particle's id, the part, memories, candidates.
+type CarriedWall<C> = (u32, u32, Vec<Memory<C>>, Vec<u32>);
 
 impl<C: Copy + Default + Send + Sync> Carried<C> {
     pub(super) fn collect<T: PairTerm<Column = C>, B>(

@@ -1,0 +1,10 @@
+//! The core as its users see it: impacts, order of sums, lists, errors.
+
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
+mod bed;
+mod determinism;
+mod errors;
+mod impact;
+mod lists;
+mod walls;
