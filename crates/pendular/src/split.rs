@@ -1,27 +1,57 @@
-use pendular_pair::Bridge;
-use pendular_transfer::split::{Pair, parabola};
+use std::collections::HashMap;
+
+use pendular_pair::{Bridge, Mate};
+use pendular_transfer::split::TransferTable;
 use pendular_transfer::{Split, TransferError};
 
 /// How the transfer ratio of a rupture is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SplitMethod {
-    /// The parabolic profile of Pepin (2000) and Shi & McCarthy (2008), as Elskamp &
-    /// Kruggel-Emden (2018) use it.
+    /// The parabolic profile of Pepin (2000) and Shi & McCarthy (2008), from a table over the
+    /// volume as Elskamp & Kruggel-Emden (2018) use it. Outside the table the nearer end holds,
+    /// and is counted as extrapolated.
     #[default]
     Parabola,
     /// Half to each body.
     Half,
 }
 
-impl SplitMethod {
-    /// The share of each body when `bridge` breaks.
-    ///
-    /// # Errors
-    /// [`TransferError`] where the method has no solution for the bridge.
-    pub fn split(self, bridge: &Bridge) -> Result<Split, TransferError> {
-        match self {
-            Self::Half => Ok(Split::HALF),
-            Self::Parabola => parabola::split(&Pair::of(bridge), bridge.volume()),
+/// The transfer ratios of a scene, by its pairs of bodies.
+#[derive(Debug, Default)]
+pub(crate) struct Splits {
+    method: SplitMethod,
+    tables: HashMap<[u64; 4], TransferTable>,
+}
+
+impl Splits {
+    pub(crate) fn new(method: SplitMethod) -> Self {
+        Self { method, tables: HashMap::new() }
+    }
+
+    /// The split of a bridge, and whether it is extrapolated.
+    pub(crate) fn of(&mut self, bridge: &Bridge) -> Result<(Split, bool), TransferError> {
+        match self.method {
+            SplitMethod::Half => Ok((Split::HALF, false)),
+            SplitMethod::Parabola => {
+                let lookup = self.table(bridge)?.clamped(bridge.volume())?;
+                Ok((lookup.split, lookup.extrapolated))
+            }
         }
+    }
+
+    /// The table of the bridge's two bodies, made when they first meet.
+    fn table(&mut self, bridge: &Bridge) -> Result<&TransferTable, TransferError> {
+        let size = match bridge.mate() {
+            Mate::Sphere { radius } => radius,
+            // No sphere has a negative radius: walls get keys of their own.
+            Mate::Wall { half_side } => -half_side,
+        };
+        let [first, second] = bridge.contact_angles();
+        let key = [bridge.radius(), size, first, second].map(f64::to_bits);
+        if !self.tables.contains_key(&key) {
+            let table = TransferTable::for_pair(bridge.radius(), bridge.mate(), [first, second])?;
+            self.tables.insert(key, table);
+        }
+        Ok(&self.tables[&key])
     }
 }

@@ -7,6 +7,7 @@ use pendular_pair::{Bridge, Mate, OutOfRange, Range};
 use pendular_transfer::formation::{self, WetMate};
 use pendular_transfer::{DynamicCurve, RuptureLaw, Split, TransferError, film};
 
+use crate::split::Splits;
 use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
 
 /// No bridge.
@@ -88,7 +89,8 @@ pub struct Counts {
     pub formed: u64,
     /// Bridges ruptured, those of bodies that left included.
     pub ruptured: u64,
-    /// Bridges formed outside the validity range of their capillary or rupture law.
+    /// Bridges formed outside the validity range of their capillary or rupture law, or of the
+    /// table of transfer ratios.
     pub extrapolated: u64,
 }
 
@@ -132,7 +134,7 @@ pub struct Wet<C, N, S> {
     liquid: Liquid,
     between: PairLaws<C, N, S>,
     with_walls: PairLaws<C, N, S>,
-    split: SplitMethod,
+    splits: Splits,
     range: Range,
     bodies: Bodies,
     ledger: Ledger,
@@ -181,7 +183,7 @@ where
             liquid,
             between,
             with_walls,
-            split,
+            splits: Splits::new(split),
             range,
             bodies,
         };
@@ -326,7 +328,6 @@ where
             Bridge::new(self.radius(first), mate, volume, angles, tension).map_err(refuse)?;
         let strange = laws.capillary.validity().check(&bridge).is_err()
             || laws.rupture.validity().check(&bridge).is_err();
-        self.counts.extrapolated += u64::from(strange);
         let viscosity = self.liquid.viscosity;
         let hold = Hold {
             bridge: account,
@@ -339,8 +340,10 @@ where
                 laws.tangential.curve(&bridge, viscosity).map_err(refuse)?,
             )),
         };
-        let split = self.split.split(&bridge);
-        let split = split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
+        let split = self.splits.of(&bridge);
+        let (split, extrapolated) =
+            split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
+        self.counts.extrapolated += u64::from(strange || extrapolated);
         self.live.resize((account as usize + 1).max(self.live.len()), None);
         self.live[account as usize] = Some(Live { split });
         Ok(hold)
