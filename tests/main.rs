@@ -5,3 +5,4 @@
 mod curves;
 mod laws;
 mod layering;
+mod young_laplace;

@@ -1,10 +1,11 @@
 use std::f64::consts::PI;
 
-use pendular_pair::Bridge;
+use pendular_pair::{Bridge, OutOfRange};
 
 use super::chebyshev;
 use super::folded::{Folded, TERMS};
 use crate::ForceCurve;
+use crate::checked::{finite, positive};
 
 /// The tabulated force over the gap of one bridge.
 ///
@@ -21,17 +22,20 @@ pub struct TabulatedCurve {
 }
 
 /// Longest gap that is told from shorter ones, m; keeps the squares finite.
-const FAR: f64 = 1e100;
+const FAR: f64 = 1e150;
 
 impl TabulatedCurve {
-    pub(super) fn new(bridge: &Bridge, folded: &Folded) -> Self {
+    pub(super) fn new(bridge: &Bridge, folded: &Folded) -> Result<Self, OutOfRange> {
         let scale = bridge.harmonic_radius();
         let strength = PI * bridge.surface_tension() * scale;
-        Self {
-            a2: 2.0 * bridge.volume() / (PI * scale),
-            inverse_end: 1.0 / folded.rupture_distance(bridge),
-            terms: chebyshev::to_monomials(&folded.terms).map(|c| c * strength),
-        }
+        let terms = chebyshev::to_monomials(&folded.terms).map(|c| c * strength);
+        finite("force of the bridge", terms.iter().map(|c| c.abs()).sum())?;
+        let end = folded.rupture_distance(bridge);
+        Ok(Self {
+            a2: positive("2V/(πR)", 2.0 * bridge.volume() / (PI * scale))?,
+            inverse_end: positive("inverse of the rupture distance", 1.0 / end)?,
+            terms,
+        })
     }
 }
 

@@ -9,6 +9,12 @@ use crate::CapillaryLaw;
 /// Radii and angles that agree to this are taken as equal.
 const EQUAL: f64 = 1e-12;
 
+/// How far, relative, the table is read beyond its ends.
+const EDGE: f64 = 1e-9;
+
+/// Smallest V* that is folded: below, powers of V* eat the digits of the coefficients.
+const SMALLEST: f64 = 1e-12;
+
 /// The exact bridge's force from a table.
 ///
 /// ```text
@@ -19,7 +25,8 @@ const EQUAL: f64 = 1e-12;
 /// gap m, volume m³, contact angle rad, surface tension N/m → force N, tension positive.
 /// # Range
 /// V* from 1e-9 to 0.5, contact angles to 60°, any two spheres and sphere-plane; below 1e-6, and
-/// with `Range::Extrapolate` anywhere, the exact solver folds the bridge where it finds a stable one.
+/// with `Range::Extrapolate` anywhere above 1e-12, the exact solver folds the bridge where it finds
+/// a stable one.
 /// # Limits
 /// gap → 0: the exact contact force. Beyond rupture the force fades like 1 − S/H.
 /// # References
@@ -40,7 +47,7 @@ impl CapillaryLaw for Tabulated {
 
     fn curve(&self, bridge: &Bridge, range: Range) -> Result<Self::Curve, OutOfRange> {
         VALIDITY.admit(bridge, range)?;
-        Ok(TabulatedCurve::new(bridge, &fold(bridge)?))
+        TabulatedCurve::new(bridge, &fold(bridge)?)
     }
 }
 
@@ -65,7 +72,9 @@ pub fn transfer_ratio(bridge: &Bridge) -> Result<f64, OutOfRange> {
 /// The folded bridge, its share that of the first body.
 fn fold(bridge: &Bridge) -> Result<Folded, OutOfRange> {
     let [first, second] = bridge.contact_angles();
-    let inside = (V_STAR.0..=V_STAR.1).contains(&bridge.v_star()) && first.max(second) <= ANGLE;
+    // The table's ends include their rounding.
+    let volumes = V_STAR.0 * (1.0 - EDGE)..=V_STAR.1 * (1.0 + EDGE);
+    let inside = volumes.contains(&bridge.v_star()) && first.max(second) <= ANGLE * (1.0 + EDGE);
     if !inside {
         return exact(bridge);
     }
@@ -89,9 +98,13 @@ fn fold(bridge: &Bridge) -> Result<Folded, OutOfRange> {
 
 /// The exact solver's fold, for bridges outside the table.
 fn exact(bridge: &Bridge) -> Result<Folded, OutOfRange> {
-    Folded::exact(bridge).map_err(|_| OutOfRange {
+    let none = OutOfRange {
         quantity: "dimensionless volume V/R^3 of a stable bridge",
         value: bridge.v_star(),
         allowed: VALIDITY.v_star,
-    })
+    };
+    if bridge.v_star() < SMALLEST {
+        return Err(none);
+    }
+    Folded::exact(bridge).map_err(|_| none)
 }

@@ -5,6 +5,7 @@ use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 use super::exact::{ExactBridge, Setup};
 use super::path::Solver;
 use super::problem::{Problem, State};
+use crate::checked::finite;
 use crate::{CapillaryLaw, ForceCurve};
 
 /// The exact force of a bridge: the Young-Laplace equation solved at every call.
@@ -75,7 +76,10 @@ impl CapillaryLaw for YoungLaplace {
             value: bridge.v_star(),
             allowed: self.validity().v_star,
         };
-        YoungLaplaceCurve::new(bridge).ok_or(none)
+        let curve = YoungLaplaceCurve::new(bridge).ok_or(none)?;
+        // F/(πσR) stays below some tens.
+        finite("force scale π σ R", 1e3 * curve.strength)?;
+        Ok(curve)
     }
 }
 
