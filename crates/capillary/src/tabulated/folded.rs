@@ -34,7 +34,7 @@ pub(super) struct Folded {
 impl Folded {
     /// Folds a bridge with the exact solver.
     pub(super) fn exact(bridge: &Bridge) -> Result<Self, SolveError> {
-        let exact = ExactBridge::new(bridge)?;
+        let exact = ExactBridge::coarse(bridge)?;
         let rupture = exact.rupture();
         let scale = bridge.harmonic_radius();
         let a2 = 2.0 * bridge.volume() / (PI * scale);

@@ -143,6 +143,18 @@ mod tests {
     }
 
     #[test]
+    fn the_file_is_what_the_generator_makes() {
+        let made = generate().unwrap();
+        assert_eq!(made.len(), FILE.len());
+        let numbers = |bytes: &[u8]| -> Vec<f32> {
+            bytes.as_chunks().0.iter().map(|b| f32::from_le_bytes(*b)).collect()
+        };
+        for (a, b) in numbers(&made).into_iter().zip(numbers(FILE)) {
+            assert!((a - b).abs() < 1e-6, "{a} {b}");
+        }
+    }
+
+    #[test]
     fn places_go_there_and_back() {
         for v_star in [1e-6, 1e-3, 0.5] {
             let bridge = bridge_of(v_star, [0.3; 2], 0.7).unwrap();

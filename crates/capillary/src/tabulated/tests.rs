@@ -102,7 +102,7 @@ fn smaller_bridges_are_folded_by_the_exact_solver() {
         let angles = [FRAC_PI_3 * random.next(), FRAC_PI_3 * random.next()];
         let (force, rupture, share) = errors(&bridge(random.mate(), v_star, angles));
         let worst = force.into_iter().fold(0.0, f64::max);
-        assert!(worst < 2e-3 && rupture < 1e-12 && share < 1e-12, "{worst} {v_star} {angles:?}");
+        assert!(worst < 2e-3 && rupture < 1e-7 && share < 1e-6, "{worst} {v_star} {angles:?}");
     }
 }
 

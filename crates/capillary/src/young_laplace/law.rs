@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
 use super::exact::{ExactBridge, Setup};
+use super::gauss::Rule;
 use super::path::Solver;
 use super::problem::{Problem, State};
 use crate::checked::finite;
@@ -86,7 +87,7 @@ impl CapillaryLaw for YoungLaplace {
 impl YoungLaplaceCurve {
     fn new(bridge: &Bridge) -> Option<Self> {
         let exact = ExactBridge::new(bridge).ok()?;
-        let setup = Setup::new(bridge);
+        let setup = Setup::new(bridge, Rule::Fine);
         let mut curve = Self {
             problem: setup.solver.problem,
             mirror: setup.solver.mirror,

@@ -1,6 +1,5 @@
 use std::f64::consts::PI;
 
-use super::gauss;
 use super::problem::{Problem, State, cap_volume};
 
 /// The neck of a meridian: its share of the length and its radius.
@@ -45,7 +44,7 @@ impl Problem {
         let y = self.radius * beta.sin();
         let half = (0.5 * beta).sin();
         let cap = cap_volume(y * y, 2.0 * self.radius * half * half);
-        let volume = gauss::rule().iter().map(slice).sum::<f64>() - cap;
+        let volume = self.rule.points().iter().map(slice).sum::<f64>() - cap;
         (volume / self.volume).clamp(0.0, 1.0)
     }
 
@@ -60,7 +59,11 @@ impl Problem {
     pub(super) fn free_area(&self, state: &State) -> f64 {
         let start = self.start(state[0].exp());
         let ds = 2.0 * PI * state[2].exp();
-        gauss::rule().iter().map(|&(t, w)| w * ds * Self::point(state, start, t).z.modulus()).sum()
+        self.rule
+            .points()
+            .iter()
+            .map(|&(t, w)| w * ds * Self::point(state, start, t).z.modulus())
+            .sum()
     }
 
     /// Radii of the two contact lines over R.
@@ -92,7 +95,7 @@ impl Problem {
             let z = Self::point(state, start, t * s).z;
             weight * ds * z.re / z.modulus()
         };
-        let run: f64 = gauss::rule().iter().map(slice).sum();
+        let run: f64 = self.rule.points().iter().map(slice).sum();
         run - 2.0 * self.radius * half * half
     }
 }

@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::complex::Complex;
-use super::gauss;
+use super::gauss::Rule;
 
 /// Unknowns of a meridian: ln β_i, the phase φ = q L and ln L, with β_i the half-filling angle of
 /// the first body, q the suction over the surface tension and L the length of the meridian.
@@ -27,6 +27,7 @@ pub(super) struct Problem {
     pub(super) angles: [f64; 2],
     /// V/R³
     pub(super) volume: f64,
+    pub(super) rule: Rule,
 }
 
 /// What a state amounts to, with the derivatives by its three unknowns.
@@ -83,7 +84,7 @@ impl Problem {
         }
         let start = self.start(beta);
         let mut out = Values { angle: 0.0, volume: 0.0, gap: 0.0, gradient: [[0.0; 3]; 3] };
-        for &(t, weight) in gauss::rule() {
+        for &(t, weight) in self.rule.points() {
             out.add_slice(Self::point_of(beta, phase, length, start, t), weight * length);
         }
         out.gradient[1][2] += out.volume;
@@ -167,7 +168,7 @@ mod tests {
     use super::*;
 
     fn problem() -> Problem {
-        Problem { radius: 0.75, curvature: 0.5, angles: [0.3, 0.7], volume: 0.1 }
+        Problem { radius: 0.75, curvature: 0.5, angles: [0.3, 0.7], volume: 0.1, rule: Rule::Fine }
     }
 
     #[test]

@@ -3,6 +3,7 @@ use std::f64::consts::PI;
 use pendular_pair::{Bridge, Mate};
 
 use super::exact::Setup;
+use super::gauss::Rule;
 use super::path::Solver;
 use super::{ExactBridge, RuptureKind, SolveError, rupture, solve};
 
@@ -165,7 +166,7 @@ fn the_closed_condition_of_the_pitchfork_is_the_whole_determinant() {
         let bridge = bridge(1.0, v_star, [degrees; 2]);
         let exact = ExactBridge::new(&bridge).unwrap();
         assert_eq!(exact.rupture().kind, RuptureKind::Pitchfork);
-        let whole = Solver { problem: Setup::new(&bridge).whole, mirror: false };
+        let whole = Solver { problem: Setup::new(&bridge, Rule::Fine).whole, mirror: false };
         let distance = exact.rupture().distance;
         assert!(whole.stable(&exact.solve(distance * (1.0 - 1e-7)).unwrap().form.state));
         let (last, before) = (exact.last_stable(), exact.solve(distance * (1.0 - 1e-4)).unwrap());
@@ -203,7 +204,7 @@ fn the_neck_jumps_between_the_bodies_under_unequal_angles() {
 fn the_stable_bridge_has_less_energy_than_the_unstable_one() {
     for bridge in [bridge(1.0, 1e-3, [0.0; 2]), bridge(3.0, 0.1, [20.0, 40.0])] {
         let exact = ExactBridge::new(&bridge).unwrap();
-        let setup = Setup::new(&bridge);
+        let setup = Setup::new(&bridge, Rule::Fine);
         let path = setup.solver.path().unwrap();
         let end = path.nodes.last().unwrap();
         let gap = 0.995 * end.gap;
@@ -256,6 +257,20 @@ fn errors_are_typed_and_nothing_hangs() {
                     assert!(exact.last_stable().force.is_finite());
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn the_coarse_rule_agrees_to_1e_7() {
+    for bridge in some_bridges() {
+        let (fine, coarse) =
+            (ExactBridge::new(&bridge).unwrap(), ExactBridge::coarse(&bridge).unwrap());
+        let (a, b) = (fine.rupture().distance, coarse.rupture().distance);
+        assert!((a / b - 1.0).abs() < 1e-7, "{bridge:?}");
+        for part in [0.0, 0.5, 0.9] {
+            let ratio = fine.force(part * a).unwrap() / coarse.force(part * a).unwrap();
+            assert!((ratio - 1.0).abs() < 1e-7, "{bridge:?} {part}");
         }
     }
 }
