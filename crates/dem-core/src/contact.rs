@@ -93,7 +93,7 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         Self { classes: classes.len(), materials, between: table, walls, rolls }
     }
 
-    #[inline]
+    #[inline(always)]
     fn of(&self, first: u16, second: Partner) -> PairContact<N> {
         match (second, &self.between) {
             (Partner::Wall(m), _) => {
@@ -106,7 +106,7 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn law(&self, pair: &Pair) -> PairContact<N> {
         match pair.encounter.second {
             crate::Partner::Particle(_) => {
@@ -149,7 +149,7 @@ where
         0.0
     }
 
-    #[inline]
+    #[inline(always)]
     fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
         let idle = encounter.gap >= 0.0;
         if idle {
@@ -158,7 +158,7 @@ where
         idle
     }
 
-    #[inline]
+    #[inline(always)]
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
         let overlap = -pair.encounter.gap;
         if overlap <= 0.0 {
@@ -179,7 +179,7 @@ where
         Load { tension: -repulsion, shear, rolling, ..Load::default() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn live(&self, column: &Self::Column) -> bool {
         *column != Spring::default()
     }
@@ -194,7 +194,7 @@ where
 }
 
 /// F_t = −k_t ξ − γ_t u, at most μ |F_n|; ξ follows the slip and the turning contact plane.
-#[inline]
+#[inline(always)]
 fn tangential<N: NormalContact>(
     law: &PairContact<N>,
     pair: &Pair,
@@ -221,7 +221,7 @@ fn tangential<N: NormalContact>(
 }
 
 /// The torque that would stop the expected relative rolling in this step, at most `limit` (N m).
-#[inline]
+#[inline(always)]
 fn rolling(limit: f64, pair: &Pair) -> DVec3 {
     let spin = pair.expected_spin;
     let rolling = spin - spin.dot(pair.normal) * pair.normal;

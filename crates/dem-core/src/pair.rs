@@ -54,8 +54,8 @@ pub struct Pair {
     /// Moment of inertia that this contact may brake without braking a particle more than once,
     /// `1/(z_i/I_i + z_j/I_j)` with z contacts on each, kg m²; zero unless a term asks for it.
     pub rolling_inertia: f64,
-    /// Lever arms l_i, l_j, m: distances of the centres from the contact; l_i + l_j is the
-    /// distance of the centres.
+    /// Lever arms l_i = r_i + S/2, l_j = r_j + S/2, m: the contact lies in the middle of the gap, and
+    /// l_i + l_j is the distance of the centres. Against a wall r_i and 0.
     pub levers: [f64; 2],
     /// Time step, s.
     pub time_step: f64,

@@ -35,7 +35,7 @@ impl<'a> View<'a> {
     }
 
     /// Two particles and the distance of their centres.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn meet(&self, [a, b]: Entry) -> (Encounter, DVec3, f64) {
         let (a, b) = (a as usize, b as usize);
         let (p, q) = (&self.places[a], &self.places[b]);
@@ -47,7 +47,7 @@ impl<'a> View<'a> {
     }
 
     /// All there is to know of the pair.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn pair<const ROLLS: bool>(
         &self,
         [a, b]: Entry,
@@ -60,8 +60,8 @@ impl<'a> View<'a> {
         let (vi, vj) = (&self.velocities[a], &self.velocities[b]);
         let velocity = vi.v - vj.v;
         let half_step_normal = (line + self.lag * velocity).normalize();
-        let share = distance / (ri + rj);
-        let (li, lj) = (ri * share, rj * share);
+        // The contact lies in the middle of gap or overlap, so that li + lj is the distance.
+        let (li, lj) = (ri + 0.5 * encounter.gap, rj + 0.5 * encounter.gap);
         let along = velocity.dot(half_step_normal);
         let turning = (li * vi.w + lj * vj.w).cross(half_step_normal);
         let mut pair = Pair {
@@ -69,7 +69,7 @@ impl<'a> View<'a> {
             first_class: self.class[a],
             second_class: self.class[b],
             radii: [ri, rj],
-            normal: line / distance,
+            normal: line * distance.recip(),
             half_step_normal,
             separation_speed: -along,
             slip: velocity - along * half_step_normal + turning,
@@ -153,14 +153,14 @@ fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
 }
 
 /// Adds a load to the first (`side` 0) or second particle (`side` 1) of a pair.
-#[inline]
+#[inline(always)]
 pub(crate) fn add<const ROLLS: bool>(sum: &mut Sum, load: &Load, pair: &Pair, side: usize) {
     let sign = if side == 0 { 1.0 } else { -1.0 };
     sum.force += sign * (load.tension * pair.normal + load.shear);
     sum.torque += pair.levers[side] * pair.normal.cross(load.shear) + sign * load.couple;
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn roll(sum: &mut Roll, torque: DVec3) {
     sum.spin += torque;
     sum.contacts += 1.0;

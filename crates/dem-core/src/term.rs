@@ -91,18 +91,18 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.reach().max(self.1.reach())
     }
 
-    #[inline]
+    #[inline(always)]
     fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
         // No short circuit: each brings its own column to rest.
         self.0.idle(encounter, &mut column.0) & self.1.idle(encounter, &mut column.1)
     }
 
-    #[inline]
+    #[inline(always)]
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
         self.0.load(pair, &mut column.0) + self.1.load(pair, &mut column.1)
     }
 
-    #[inline]
+    #[inline(always)]
     fn live(&self, column: &Self::Column) -> bool {
         self.0.live(&column.0) || self.1.live(&column.1)
     }
@@ -141,17 +141,17 @@ impl<T: PairTerm> PairTerm for Option<T> {
         self.as_ref().map_or(0.0, T::reach)
     }
 
-    #[inline]
+    #[inline(always)]
     fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
         self.as_ref().is_none_or(|term| term.idle(encounter, column))
     }
 
-    #[inline]
+    #[inline(always)]
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
         self.as_ref().map_or_else(Load::default, |term| term.load(pair, column))
     }
 
-    #[inline]
+    #[inline(always)]
     fn live(&self, column: &Self::Column) -> bool {
         self.as_ref().is_some_and(|term| term.live(column))
     }

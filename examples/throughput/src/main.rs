@@ -1,0 +1,115 @@
+//! Particle steps per second on the settled beds that other DEM codes were measured on.
+
+mod measure;
+mod scene;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+
+/// Measures the speed of whole scenes.
+///
+/// Prints one line: `pendular SCENE THREADS PARTICLES STEPS SECONDS PARTICLE_STEPS_PER_S
+/// PEAK_RSS_MB`, after a warm-up that is not counted.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Cli {
+    /// What to measure.
+    #[arg(long)]
+    scene: Scene,
+    /// Settled spheres, CSV with the header `id,x,y,z,radius,density`, SI.
+    #[arg(long, value_name = "FILE")]
+    particles: PathBuf,
+    /// Threads.
+    #[arg(long, default_value_t = 1)]
+    threads: usize,
+    /// Timed steps.
+    #[arg(long, default_value_t = 4000)]
+    steps: u64,
+    /// Steps before the timed ones.
+    #[arg(long, default_value_t = 200)]
+    warm: u64,
+    /// Half side of the box of the beds, m; from the spheres where it is left out.
+    #[arg(long)]
+    half: Option<f64>,
+    /// Screen wires as prisms of triangles with this many sides instead of exact cylinders.
+    #[arg(long, value_name = "SIDES")]
+    mesh: Option<u32>,
+    /// Skin of the outer neighbour lists, m.
+    #[arg(long)]
+    skin: Option<f64>,
+    /// Skin of the active lists, m.
+    #[arg(long)]
+    inner_skin: Option<f64>,
+    /// Also prints kinetic energy, mean overlap, mean coordination and where the time went.
+    #[arg(long)]
+    check: bool,
+}
+
+/// The scenes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Scene {
+    /// Spheres in a box over a vibrating floor.
+    DryBed,
+    /// The same with liquid.
+    WetBed,
+    /// Spheres in a pipe over a vibrating screen of wires.
+    DryScreen,
+    /// The same with liquid.
+    WetScreen,
+}
+
+impl Scene {
+    fn is_wet(self) -> bool {
+        matches!(self, Self::WetBed | Self::WetScreen)
+    }
+
+    fn has_screen(self) -> bool {
+        matches!(self, Self::DryScreen | Self::WetScreen)
+    }
+
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match run(&cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
+    let bed = scene::Bed::read(&cli.particles)?;
+    let walls = scene::walls(cli.scene.has_screen(), cli.mesh, cli.half.unwrap_or(bed.half()))?;
+    let mut settings = scene::settings(cli.threads);
+    (settings.skin, settings.inner_skin) = (cli.skin, cli.inner_skin);
+    let result = if cli.scene.is_wet() {
+        let wet = scene::wet(&bed, &walls.0)?;
+        let term = (scene::contact(bed.particles.classes())?, wet);
+        measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
+    } else {
+        let term = scene::contact(bed.particles.classes())?;
+        measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
+    };
+    println!(
+        "pendular {} {} {} {} {:.3} {:.4e} {:.0}",
+        cli.scene.name(),
+        cli.threads,
+        result.particles,
+        cli.steps,
+        result.seconds,
+        result.particles as f64 * cli.steps as f64 / result.seconds,
+        measure::peak_memory()
+    );
+    if cli.check {
+        println!("{}", result.check);
+    }
+    Ok(())
+}

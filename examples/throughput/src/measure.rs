@@ -1,0 +1,67 @@
+//! Timing a simulation.
+
+use std::time::Instant;
+
+use pendular::MeshWalls;
+use pendular::dem::{PairTerm, Particles, Settings, Simulation, SimulationError};
+
+/// What a measurement gives.
+pub(crate) struct Measured {
+    pub(crate) particles: usize,
+    pub(crate) seconds: f64,
+    /// State and profile at the end, for people.
+    pub(crate) check: String,
+}
+
+/// Runs `warm` steps, then times `steps`.
+pub(crate) fn run<T: PairTerm>(
+    particles: Particles,
+    term: T,
+    walls: MeshWalls,
+    settings: Settings,
+    warm: u64,
+    steps: u64,
+) -> Result<Measured, SimulationError> {
+    let mut simulation = Simulation::new(particles, term, walls, settings)?;
+    simulation.advance(warm)?;
+    let before = simulation.profile();
+    let start = Instant::now();
+    simulation.advance(steps)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let after = simulation.profile();
+    let (mut contacts, mut overlap, mut pairs) = (0_u64, 0.0, 0_u64);
+    simulation.for_each_pair(|encounter, _| {
+        pairs += 1;
+        if encounter.gap < 0.0 {
+            contacts += 1;
+            overlap -= encounter.gap;
+        }
+    });
+    let n = simulation.particles().len();
+    let part = |a: std::time::Duration, b: std::time::Duration| (a - b).as_secs_f64();
+    let check = format!(
+        "kinetic energy {:.6e} J, mean overlap {:.4e} m, mean coordination {:.4}, pairs held {}\n\
+         neighbours {:.3} s ({} builds, {} prunes), pairs {:.3} s, walls {:.3} s, settling {:.3} s, \
+         integration {:.3} s",
+        simulation.particles().kinetic_energy(),
+        overlap / contacts.max(1) as f64,
+        2.0 * contacts as f64 / n as f64,
+        pairs,
+        part(after.neighbours, before.neighbours),
+        after.builds - before.builds,
+        after.prunes - before.prunes,
+        part(after.pairs, before.pairs),
+        part(after.walls, before.walls),
+        part(after.settling, before.settling),
+        part(after.integration, before.integration),
+    );
+    Ok(Measured { particles: n, seconds, check })
+}
+
+/// Peak resident memory of this process, MB; 0 where the system does not say.
+pub(crate) fn peak_memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) / 1024.0
+}
