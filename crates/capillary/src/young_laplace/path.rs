@@ -1,5 +1,5 @@
 use super::newton::{bracketed_root, newton, solve_linear};
-use super::problem::{Problem, State};
+use super::problem::{Problem, State, Values};
 use super::rupture::RuptureKind;
 
 /// Smallest dimensionless volume to start from; the torus estimate is good there.
@@ -136,7 +136,7 @@ impl Solver {
     /// It is the vector of minors of the Jacobian, so that its orientation follows one smooth rule
     /// along a branch: its last entry is the determinant whose sign tells stable from unstable.
     fn tangent(&self, state: &State) -> Option<[f64; 4]> {
-        let rows = self.rows(state)?;
+        let rows = self.rows(&self.problem.evaluate(state)?);
         let minor = |skip: usize| {
             let column = |k: usize| rows.map(|row| row[if k < skip { k } else { k + 1 }]);
             determinant(column(0), column(1), column(2))
@@ -147,14 +147,13 @@ impl Solver {
     }
 
     /// Rows of residual derivatives by the unknowns and the scaled gap.
-    fn rows(&self, state: &State) -> Option<[[f64; 4]; 3]> {
-        let v = self.problem.evaluate(state)?;
+    fn rows(&self, v: &Values) -> [[f64; 4]; 3] {
         let row = |k: usize, scale: f64, last: f64| {
             let [a, b, c] = v.gradient[k];
             [a / scale, b / scale, c / scale, last]
         };
         let reach = self.reach();
-        Some([row(0, 1.0, 0.0), row(1, self.problem.volume, 0.0), row(2, reach, -1.0)])
+        [row(0, 1.0, 0.0), row(1, self.problem.volume, 0.0), row(2, reach, -1.0)]
     }
 
     /// Positive while a symmetric bridge is stable against antisymmetric disturbances.
@@ -206,7 +205,7 @@ impl Solver {
         let found = newton(guess, |x| {
             let state = [x[0], x[1], x[2]];
             let v = self.problem.evaluate(&state)?;
-            let rows = self.rows(&state)?;
+            let rows = self.rows(&v);
             let ahead: f64 = (0..4).map(|k| from.tangent[k] * (x[k] - guess[k])).sum();
             Some((
                 [v.angle, v.volume / self.problem.volume - 1.0, v.gap / reach - x[3], ahead],
