@@ -23,4 +23,4 @@ pub use pendular_pair as pair;
 pub use pendular_transfer as transfer;
 pub use pendular_walls as walls;
 pub use split::SplitMethod;
-pub use wet::{Bodies, Counts, Hold, WallElement, Wet, WetError};
+pub use wet::{Bodies, Counts, Hold, LiveBridge, WallElement, Wet, WetError};

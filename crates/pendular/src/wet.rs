@@ -119,10 +119,17 @@ impl<C, N, S> Default for Hold<C, N, S> {
     }
 }
 
-/// What only the end of a bridge needs: kept apart from what every step reads.
-#[derive(Debug, Clone, Copy)]
-struct Live {
-    split: Split,
+/// A live bridge: what only its end and reports need, kept apart from what every step reads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LiveBridge {
+    /// What is constant over its life.
+    pub bridge: Bridge,
+    /// How its liquid is shared when it breaks.
+    pub split: Split,
+    /// The first body.
+    pub first: u32,
+    /// The second body.
+    pub second: Partner,
 }
 
 /// Liquid bridges: they form where films touch, pull, drag, break and hand liquid on.
@@ -138,7 +145,7 @@ pub struct Wet<C, N, S> {
     range: Range,
     bodies: Bodies,
     ledger: Ledger,
-    live: Vec<Option<Live>>,
+    live: Vec<Option<LiveBridge>>,
     thickness: Vec<f64>,
     wall_thickness: Vec<f64>,
     thickest: f64,
@@ -238,6 +245,23 @@ where
         let split = self.live.get(bridge as usize).copied().flatten();
         let volume = self.ledger.volume(Account::Bridge(bridge));
         split.map_or([0.0; 2], |live| live.split.shares(volume))
+    }
+
+    /// All live bridges.
+    pub fn bridges(&self) -> impl Iterator<Item = &LiveBridge> + '_ {
+        self.live.iter().flatten()
+    }
+
+    /// The tension of a live bridge at `gap` m, N; as in [`pendular_capillary::CapillaryLaw::force`].
+    ///
+    /// # Errors
+    /// [`OutOfRange`] as when the bridge formed; it has formed, so that does not happen.
+    pub fn tension(&self, live: &LiveBridge, gap: f64) -> Result<f64, OutOfRange> {
+        let laws = match live.second {
+            Partner::Particle(_) => &self.between,
+            Partner::Wall(_) => &self.with_walls,
+        };
+        laws.capillary.force(&live.bridge, gap, self.range)
     }
 
     fn radius(&self, id: u32) -> f64 {
@@ -345,7 +369,7 @@ where
             split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
         self.counts.extrapolated += u64::from(strange || extrapolated);
         self.live.resize((account as usize + 1).max(self.live.len()), None);
-        self.live[account as usize] = Some(Live { split });
+        self.live[account as usize] = Some(LiveBridge { bridge, split, first, second });
         Ok(hold)
     }
 
