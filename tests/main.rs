@@ -5,4 +5,6 @@
 mod curves;
 mod laws;
 mod layering;
+mod pull_off;
+mod rig;
 mod young_laplace;
