@@ -9,6 +9,7 @@
 //! [`Soulie2006`]; those of the other meet the exact bridge within 12 % up to 0.9 of the rupture gap
 //! for θ = 0 and V* from 1e-3 to 0.03, but let the force of small bridges grow with the angle.
 
+pub mod advise;
 mod any;
 mod bagheri_2024;
 mod checked;
