@@ -5,23 +5,19 @@ mod builtin;
 mod check;
 mod cli;
 mod error;
-mod makeup;
+mod output;
 mod packing;
 mod progress;
 mod report;
 mod run;
 mod scene;
 mod vtk;
-mod screening;
-mod tables;
-mod tally;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::build::Source;
 use crate::cli::{Cli, Command, RunArgs};
 use crate::error::{RunError, SceneError};
 use crate::progress::Progress;
@@ -85,8 +81,7 @@ fn load(name: &str) -> Result<(Scene, PathBuf, String), SceneError> {
 
 fn check_scene(name: &str) -> Result<(), RunError> {
     let (scene, base, _) = load(name)?;
-    let source = Source { base: &base, beds: None, threads: 1 };
-    let built = build::build(&scene, &source)?;
+    let built = build::build(&scene, &base, 1)?;
     println!("{}", report::header(&scene, &built));
     let limit = build::limit(&built);
     let share = 100.0 * built.settings.time_step / limit.time_step;
@@ -117,9 +112,7 @@ fn run_scene(args: &RunArgs) -> Result<(), RunError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = args.threads.unwrap_or(cores).max(1);
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
-    let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
-    let source = Source { base: &base, beds: Some(&beds), threads };
-    let built = build::build(&scene, &source)?;
+    let built = build::build(&scene, &base, threads)?;
     println!("{}", report::header(&scene, &built));
     let (settings, derived) = (built.settings, built.derived.clone());
     let parts: Vec<String> = built.walls.0.parts().iter().map(|part| part.name.clone()).collect();
