@@ -7,4 +7,5 @@ mod laws;
 mod layering;
 mod pull_off;
 mod rig;
+mod wet_pair;
 mod young_laplace;
