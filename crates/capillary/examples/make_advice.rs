@@ -1,8 +1,8 @@
 //! Measures the error of every law against the exact bridge, and its cost, for `advise`.
 //!
 //! `cargo run --release -p pendular-capillary --example make_advice -- [errors|costs]` from the
-//! repository's root; without a word it makes both. It takes a minute, and wants a machine that does
-//! nothing else while it measures costs. After a law was added run it and commit the files.
+//! repository's root; without a word it makes both. It takes a minute, and wants a machine that
+//! does nothing else while it measures costs. After a law was added run it and commit the files.
 
 use std::error::Error;
 use std::hint::black_box;

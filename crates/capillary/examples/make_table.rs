@@ -2,8 +2,8 @@
 //! errors on bridges that are not in it.
 //!
 //! `cargo run --release -p pendular-capillary --example make_table -- [FILE]` from the repository's
-//! root. FILE defaults to the place from which the table is compiled in; the errors printed are those
-//! of the table that was compiled in before, so run it twice after a change.
+//! root. FILE defaults to the place from which the table is compiled in; the errors printed are
+//! those of the table that was compiled in before, so run it twice after a change.
 
 use std::error::Error;
 
@@ -67,7 +67,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Contact angles and mate: a fifth equal spheres, a fifth planes, a fifth nearly equal spheres.
+    /// Contact angles and mate: a fifth planes, a fifth equal, a fifth nearly equal spheres.
     fn pair(&mut self, unequal: bool) -> ([f64; 2], Mate) {
         let third = std::f64::consts::FRAC_PI_3;
         let first = third * self.next();

@@ -19,7 +19,8 @@ const SHAPE: [usize; 3] = [12, 25, 12];
 /// endian. Written by the example `make_table`.
 static FILE: &[u8] = include_bytes!("table.bin");
 
-/// A bridge's place in the table, each coordinate in [0, 1]: ln V*, θ and m = ∛(1 − r_small/r_large).
+/// A bridge's place in the table, each coordinate in [0, 1]: ln V*, θ and
+/// m = ∛(1 − r_small/r_large).
 ///
 /// m = 0 are equal spheres, m = 1 sphere and plane. The cube root makes the unfolding of the
 /// pitchfork smooth, which goes like the cube root of the asymmetry.

@@ -9,9 +9,9 @@
 //!
 //! 1 − S/H is what a small bridge does (Lambert), τ takes up the square root at rupture.
 //!
-//! - **Equal contact angles**, any two spheres or sphere and plane: coefficients, S_rup and share are
-//!   Chebyshev sums over ln V*, θ and ∛(1 − r_small/r_large), in a table of 39 kB that the example
-//!   `make_table` builds from the exact solver.
+//! - **Equal contact angles**, any two spheres or sphere and plane: coefficients, S_rup and share
+//!   are Chebyshev sums over ln V*, θ and ∛(1 − r_small/r_large), in a table of 39 kB that the
+//!   example `make_table` builds from the exact solver.
 //! - **Unequal angles**: cubic in ln V* between exactly solved bridges (65 nodes) for each pair of
 //!   angles and size ratio, solved when first wanted and remembered for all threads. At the volume
 //!   where the neck jumps from one body to the other the bridge is solved itself.
@@ -24,10 +24,10 @@
 //! prints them.
 //!
 //! # Cost
-//! A force costs less than twice Lambert's (6.6 against 3.8 ns, with Willett's full form 20). A curve
-//! costs 5 µs with equal angles; with unequal ones half a millisecond per node that is not yet known
-//! (four for the first bridge, 65 at most per pair of bodies), then 0.2 µs. Where the exact solver
-//! folds: half a millisecond.
+//! A force costs less than twice Lambert's (6.6 against 3.7 ns, with Willett's full form 20). A
+//! curve costs 2 to 5 µs with equal angles; with unequal ones half a millisecond per node that is not
+//! yet known (four for the first bridge, 65 at most per pair of bodies), then 0.2 µs. Where the exact
+//! solver folds: half a millisecond.
 //!
 //! ```
 //! use pendular_capillary::{Bridge, CapillaryLaw, ForceCurve, Mate, Range};

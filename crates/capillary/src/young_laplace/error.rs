@@ -17,7 +17,11 @@ pub enum SolveError {
         rupture_distance: f64,
     },
     /// No stable bridge was found even between bodies in contact.
-    #[error("no stable bridge of V/R^3 = {v_star} between touching bodies (angles {} and {} rad)", contact_angles[0], contact_angles[1])]
+    #[error(
+        "no stable bridge of V/R^3 = {v_star} between touching bodies (angles {} and {} rad)",
+        contact_angles[0],
+        contact_angles[1]
+    )]
     NoStableBridge {
         /// Dimensionless volume V* = V/R³.
         v_star: f64,

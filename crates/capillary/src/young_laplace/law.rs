@@ -2,8 +2,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
-use super::exact::{ExactBridge, Setup};
-use super::gauss::Rule;
+use super::exact::ExactBridge;
 use super::path::Solver;
 use super::problem::{Problem, State};
 use crate::checked::finite;
@@ -30,7 +29,8 @@ use crate::{CapillaryLaw, ForceCurve};
 /// See the [module](crate::young_laplace).
 ///
 /// ```
-/// use pendular_capillary::{Bridge, CapillaryLaw, ForceCurve, Mate, Range, young_laplace::YoungLaplace};
+/// use pendular_capillary::young_laplace::YoungLaplace;
+/// use pendular_capillary::{Bridge, CapillaryLaw, ForceCurve, Mate, Range};
 /// // Two spheres of 2.381 mm, 13.6 nl, 20.6 mN/m, θ = 0 at S = 120.5 µm: 39.067 µN by an
 /// // independent solver.
 /// let mate = Mate::Sphere { radius: 2.381e-3 };
@@ -87,7 +87,7 @@ impl CapillaryLaw for YoungLaplace {
 impl YoungLaplaceCurve {
     fn new(bridge: &Bridge) -> Option<Self> {
         let exact = ExactBridge::new(bridge).ok()?;
-        let setup = Setup::new(bridge, Rule::Fine);
+        let setup = exact.setup();
         let mut curve = Self {
             problem: setup.solver.problem,
             mirror: setup.solver.mirror,

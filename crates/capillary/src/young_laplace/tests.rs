@@ -262,6 +262,22 @@ fn errors_are_typed_and_nothing_hangs() {
 }
 
 #[test]
+fn bodies_equal_to_nearly_all_digits() {
+    // The pitchfork's unfolding: S_rup falls like the 2/3 power of the asymmetry.
+    for degrees in [25.0, 31.2, 45.0, 60.0] {
+        for v_star in [1e-9, 1e-3, 0.5] {
+            let equal = rupture(&bridge(1.0, v_star, [degrees; 2])).unwrap().distance;
+            for power in [-15, -13, -12, -11, -9, -6] {
+                let asymmetry = 10.0_f64.powi(power);
+                let near = rupture(&bridge(1.0 + asymmetry, v_star, [degrees; 2])).unwrap();
+                let drop = 1.0 - near.distance / equal;
+                assert!(drop.abs() < 2.0 * asymmetry.powf(2.0 / 3.0) + 1e-11, "{degrees} {drop}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_coarse_rule_agrees_to_1e_7() {
     for bridge in some_bridges() {
         let (fine, coarse) =
