@@ -1,9 +1,12 @@
 //! The command line.
 
+use std::path::PathBuf;
+
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use pendular_capillary::AnyCapillary;
 
+use crate::advise::Question;
 use crate::contact::Model;
 use crate::rupture::RuptureChoice;
 use crate::transfer::Method;
@@ -34,6 +37,19 @@ Reads CSV on stdin with the header
 (effective modulus Pa, reduced radius m, yield pressure Pa, m). Writes every row `steps` + 1 times
 for loading and `steps` + 1 times for unloading, with branch, displacement (m), force (N, positive
 pushes apart) and status behind it. The elastic model does not read yield_pressure.";
+
+const CHART: &str = "\
+Build with --release, and leave the machine alone while it runs (about a minute). Writes
+  cost_accuracy.csv     one row per law: ns per force, per curve, per first curve of a new pair of
+                        angles, per one-shot call; median, 95th percentile and worst relative error
+                        near contact, in the middle, near rupture and over all gaps, inside and
+                        outside the law's stated range, and for unequal angles inside of it
+  error_vs_gap.csv      the same errors per share of the exact rupture distance
+  error_map_<law>.csv   worst error over V* and contact angle
+  rupture_errors.csv    relative error of every rupture law
+  transfer_errors.csv   error of the transfer ratio
+and figures (SVG) of these. The grid: V* 1e-6 to 0.5, contact angles 0 to 60 degrees, radius ratios 1
+to 100 and planes, 19 gaps from contact to rupture.";
 
 /// Every law of wet contacts on CSV tables: stdin to stdout.
 #[derive(Debug, Parser)]
@@ -84,6 +100,18 @@ pub(crate) enum Command {
     },
     /// List every law as CSV: command, name, kind, ranges, source
     Laws,
+    /// Name the cheapest law whose measured error stays under a tolerance
+    ///
+    /// Errors and costs are those measured when the table in the crate was made (`make_advice`);
+    /// every law is taken inside its own stated range.
+    Advise(Question),
+    /// Measure every law's cost and its error against the exact bridge: CSV tables and SVG figures
+    #[command(after_help = CHART)]
+    Chart {
+        /// Directory to write to; made if it is not there
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
 }
 
 fn capillary() -> impl TypedValueParser<Value = AnyCapillary> {

@@ -20,8 +20,12 @@ pub(crate) enum RuptureChoice {
 }
 
 impl RuptureChoice {
-    pub(crate) fn all() -> [Self; AnyRupture::ALL.len() + 2] {
-        let mut all = [Self::YoungLaplace; AnyRupture::ALL.len() + 2];
+    /// How many there are.
+    pub(crate) const COUNT: usize = AnyRupture::ALL.len() + 2;
+
+    /// Every law, the exact one last.
+    pub(crate) fn all() -> [Self; Self::COUNT] {
+        let mut all = [Self::YoungLaplace; Self::COUNT];
         for (place, law) in all.iter_mut().zip(AnyRupture::ALL) {
             *place = Self::Formula(law);
         }
