@@ -264,6 +264,12 @@ where
         laws.capillary.force(&live.bridge, gap, self.range)
     }
 
+    /// Class of a particle, also of one that has left.
+    #[must_use]
+    pub fn class(&self, id: u32) -> u16 {
+        self.bodies.class[id as usize]
+    }
+
     fn radius(&self, id: u32) -> f64 {
         self.bodies.radii[usize::from(self.bodies.class[id as usize])]
     }

@@ -123,9 +123,14 @@ fn classes(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
             return Err(check.fail(&key("name"), &class.name, "a name of its own"));
         }
     }
+    let walls: Vec<&String> = [&scene.screen.material]
+        .into_iter()
+        .chain(scene.housing.iter().map(|housing| &housing.material))
+        .chain(scene.parts.iter().map(|part| &part.material))
+        .collect();
     for (a, first) in scene.classes.iter().enumerate() {
         let others = scene.classes[a..].iter().map(|c| &c.material);
-        for other in others.chain([&scene.screen.material]) {
+        for other in others.chain(walls.iter().copied()) {
             let found = scene.contacts.iter().any(|pair| {
                 let [x, y] = &pair.between;
                 (x == &first.material && y == other) || (y == &first.material && x == other)
@@ -136,11 +141,24 @@ fn classes(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
             }
         }
     }
-    if let Packing::Random { solid_fraction, clearance_mm } = &scene.packing {
-        check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
-        check.within("packing.clearance_mm", *clearance_mm, 0.0, 1e4)?;
+    packing(scene, check)
+}
+
+fn packing(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
+    match &scene.packing {
+        Packing::Random { solid_fraction, clearance_mm } => {
+            check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
+            check.within("packing.clearance_mm", *clearance_mm, 0.0, 1e4)
+        }
+        Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
+            check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
+            let lowest = 0.5 * scene.screen.wire_diameter_mm + scene.motion.amplitude_mm[2];
+            let highest = scene.screen.height_mm;
+            check.within("packing.floor_height_mm", *floor_height_mm, lowest, highest)?;
+            check.positive("packing.settle_at_most", *settle_at_most)
+        }
+        Packing::File { .. } => Ok(()),
     }
-    Ok(())
 }
 
 fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
@@ -153,6 +171,20 @@ fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     check.positive("screen.collect_below_mm", screen.collect_below_mm)?;
     check.within("screen.wire_sides", f64::from(screen.wire_sides), 3.0, 256.0)?;
     check.within("motion.frequency", scene.motion.frequency, 0.0, 1e5)?;
+    check.within("motion.ramp", scene.motion.ramp, 0.0, 1e6)?;
+    if let Some(housing) = &scene.housing {
+        known_material(scene, check, "housing.material", &housing.material)?;
+        check.within("housing.plate_angle_deg", housing.plate_angle_deg, 5.0, 80.0)?;
+        check.within("housing.plate_gap_mm", housing.plate_gap_mm, 0.0, 1e4)?;
+        check.within("housing.outlet_length_mm", housing.outlet_length_mm, 0.0, 1e4)?;
+    }
+    for (k, part) in scene.parts.iter().enumerate() {
+        known_material(scene, check, &format!("parts[{k}].material"), &part.material)?;
+        check.positive(&format!("parts[{k}].scale"), part.scale)?;
+        if let Some(half) = part.half_side_mm {
+            check.positive(&format!("parts[{k}].half_side_mm"), half)?;
+        }
+    }
     for axis in 0..3 {
         let amplitude = scene.motion.amplitude_mm[axis];
         check.within(&format!("motion.amplitude_mm[{axis}]"), amplitude, 0.0, 1e3)?;

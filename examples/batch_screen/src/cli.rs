@@ -49,6 +49,9 @@ pub(crate) struct RunArgs {
     /// Folder for the results; `out/NAME` where it is left out.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Folder of settled beds, to be used again; `out/beds` where it is left out.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) beds: Option<PathBuf>,
     /// Seed of the packing, instead of the scene's.
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
@@ -57,6 +60,6 @@ pub(crate) struct RunArgs {
 impl Default for RunArgs {
     fn default() -> Self {
         let scene = "demo".to_owned();
-        Self { scene, time: None, dt: None, threads: None, out: None, seed: None }
+        Self { scene, time: None, dt: None, threads: None, out: None, beds: None, seed: None }
     }
 }

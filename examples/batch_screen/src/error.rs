@@ -7,6 +7,8 @@ use std::path::PathBuf;
 pub(crate) enum SceneError {
     #[error("cannot read {}: {source}", file.display())]
     Unreadable { file: PathBuf, source: std::io::Error },
+    #[error("cannot write {}: {source}", file.display())]
+    Unwritable { file: PathBuf, source: std::io::Error },
     #[error("{}: key `{key}`: {message}", file.display())]
     Syntax { file: PathBuf, key: String, message: String },
     #[error("{}: key `{key}`: {value} is not allowed; allowed: {allowed}", file.display())]

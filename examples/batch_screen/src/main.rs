@@ -5,12 +5,15 @@ mod builtin;
 mod check;
 mod cli;
 mod error;
-mod output;
+mod makeup;
 mod packing;
 mod progress;
 mod report;
 mod run;
 mod scene;
+mod screening;
+mod tables;
+mod tally;
 mod vtk;
 
 use std::path::{Path, PathBuf};
@@ -18,6 +21,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::build::Source;
 use crate::cli::{Cli, Command, RunArgs};
 use crate::error::{RunError, SceneError};
 use crate::progress::Progress;
@@ -81,7 +85,8 @@ fn load(name: &str) -> Result<(Scene, PathBuf, String), SceneError> {
 
 fn check_scene(name: &str) -> Result<(), RunError> {
     let (scene, base, _) = load(name)?;
-    let built = build::build(&scene, &base, 1)?;
+    let source = Source { base: &base, beds: None, threads: 1 };
+    let built = build::build(&scene, &source)?;
     println!("{}", report::header(&scene, &built));
     let limit = build::limit(&built);
     let share = 100.0 * built.settings.time_step / limit.time_step;
@@ -112,7 +117,9 @@ fn run_scene(args: &RunArgs) -> Result<(), RunError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = args.threads.unwrap_or(cores).max(1);
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
-    let built = build::build(&scene, &base, threads)?;
+    let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
+    let source = Source { base: &base, beds: Some(&beds), threads };
+    let built = build::build(&scene, &source)?;
     println!("{}", report::header(&scene, &built));
     let (settings, derived) = (built.settings, built.derived.clone());
     let parts: Vec<String> = built.walls.0.parts().iter().map(|part| part.name.clone()).collect();

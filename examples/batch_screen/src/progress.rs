@@ -7,7 +7,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pendular::MeshWalls;
 use pendular::dem::Simulation;
 
-use crate::run::{Makeup, Tally};
+use crate::makeup::Makeup;
+use crate::tally::Tally;
 
 /// Time between renewals of the line, s.
 const RENEW: f64 = 0.2;
@@ -62,7 +63,7 @@ impl Progress {
     pub(crate) fn row(&self, tally: &Tally) {
         if self.bar.is_hidden() {
             let above: u64 = tally.above.iter().sum();
-            let bridges = tally.counts.formed - tally.counts.ruptured;
+            let bridges = tally.alive();
             eprintln!("t = {:.3} s: {above} above the screen, {bridges} bridges", tally.time);
         }
     }

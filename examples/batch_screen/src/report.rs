@@ -7,9 +7,10 @@ use serde_json::json;
 
 use crate::build::{Built, Derived};
 use crate::error::RunError;
-use crate::output::{groups, retained};
-use crate::run::{Outcome, wall_speed};
+use crate::run::Outcome;
 use crate::scene::{Scene, WireKind};
+use crate::tables::{groups, retained};
+use crate::tally::wall_speed;
 
 /// What the run is about to do, with the numbers that follow from the scene.
 pub(crate) fn header(scene: &Scene, built: &Built) -> String {
@@ -65,20 +66,20 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
     let (total, classes) = retained(&outcome.tally, &outcome.first, &derived.masses, density);
     let tally = &outcome.tally;
     let mut text = format!("after {:.3} s\n", tally.time);
-    text += "  class          start   above  passed   fraction retained\n";
+    text += "  class          start   above  collected  fraction retained\n";
     for (k, class) in scene.classes.iter().enumerate() {
         text += &format!(
-            "  {:<12} {:>7} {:>7} {:>7}   {:.4}\n",
-            class.name, derived.counts[k], tally.above[k], tally.passed[k], classes[k]
+            "  {:<12} {:>7} {:>7} {:>10}  {:.4}\n",
+            class.name, derived.counts[k], tally.above[k], tally.collected[k], classes[k]
         );
     }
     let sum = |v: &[u64]| v.iter().sum::<u64>();
     text += &format!(
-        "  {:<12} {:>7} {:>7} {:>7}   {total:.4}\n",
+        "  {:<12} {:>7} {:>7} {:>10}  {total:.4}\n",
         "all",
         sum(&derived.counts),
         sum(&tally.above),
-        sum(&tally.passed)
+        sum(&tally.collected)
     );
     if tally.escaped > 0 {
         text +=
@@ -89,10 +90,10 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
         text += &format!(
             "  liquid [ul]: {:.1} on particles above, {:.1} on fines, {:.1} on walls, {:.1} in {} bridges\n",
             ul(tally.film.iter().sum()),
-            ul(tally.fines),
+            ul(tally.fines.iter().sum()),
             ul(tally.parts.iter().sum()),
             ul(tally.bridges),
-            tally.counts.formed - tally.counts.ruptured
+            tally.alive()
         );
         text += &format!(
             "  {} bridges formed, {} outside a law's range; liquid imbalance {:.1e}\n",
@@ -155,18 +156,25 @@ pub(crate) fn summary(
             "total": total,
             "by_class": by_class(classes.iter().map(|y| json!(y)).collect()),
         },
+        "classes": scene.classes.iter().zip(&derived.counts).map(|(class, count)| json!({
+            "name": class.name,
+            "diameter_mm": class.diameter_mm,
+            "count": count,
+        })).collect::<Vec<_>>(),
+        "collected": by_class(tally.collected.iter().map(|n| json!(n)).collect()),
         "passed": by_class(tally.passed.iter().map(|n| json!(n)).collect()),
         "above": by_class(tally.above.iter().map(|n| json!(n)).collect()),
         "escaped": tally.escaped,
         "bridges": {
             "formed": tally.counts.formed,
             "ruptured": tally.counts.ruptured,
-            "alive": tally.counts.formed - tally.counts.ruptured,
+            "alive": tally.alive(),
+            "alive_wall": tally.wall_bridges,
             "outside_law_range": tally.counts.extrapolated,
         },
         "liquid_m3": {
             "above": by_class(tally.film.iter().map(|v| json!(v)).collect()),
-            "fines": tally.fines,
+            "fines": by_class(tally.fines.iter().map(|v| json!(v)).collect()),
             "walls": walls,
             "bridges": tally.bridges,
         },

@@ -3,71 +3,23 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use pendular::contact::Linear;
-use pendular::dem::{Boundary, Contact, Departure, PairTerm, Simulation};
-use pendular::{Account, Counts, Ledger, MeshWalls};
+use pendular::dem::{Departure, Particle, Profile, Simulation};
+use pendular::{Account, MeshWalls};
 
+use crate::build::apparatus::collection;
 use crate::build::{Built, Derived, WetTerm};
-use crate::error::RunError;
-use crate::output::Output;
+use crate::error::{RunError, SceneError};
+use crate::makeup::Makeup;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::screening::Screening;
+use crate::tables::Tables;
+use crate::tally::{Gone, Tally};
 
 /// Steps between looks at what has left; the core lets particles leave every 64 steps.
 const BATCH: u64 = 64;
-
-/// The two make-ups of a screening run: dry, and with liquid.
-pub(crate) trait Makeup: PairTerm {
-    /// The liquid, if there is any.
-    fn wet(&self) -> Option<&WetTerm>;
-    /// The liquid, to be changed.
-    fn wet_mut(&mut self) -> Option<&mut WetTerm>;
-}
-
-impl Makeup for Contact<Linear> {
-    fn wet(&self) -> Option<&WetTerm> {
-        None
-    }
-
-    fn wet_mut(&mut self) -> Option<&mut WetTerm> {
-        None
-    }
-}
-
-impl Makeup for (Contact<Linear>, WetTerm) {
-    fn wet(&self) -> Option<&WetTerm> {
-        Some(&self.1)
-    }
-
-    fn wet_mut(&mut self) -> Option<&mut WetTerm> {
-        Some(&mut self.1)
-    }
-}
-
-/// What a run knows of itself at one moment.
-#[derive(Debug, Clone)]
-pub(crate) struct Tally {
-    /// Simulated time, s.
-    pub(crate) time: f64,
-    /// Particles of each class above the screen.
-    pub(crate) above: Vec<u64>,
-    /// Particles of each class that passed.
-    pub(crate) passed: Vec<u64>,
-    /// Particles that left in any other way.
-    pub(crate) escaped: u64,
-    /// Liquid on the particles of each class above the screen, m³.
-    pub(crate) film: Vec<f64>,
-    /// Liquid that left on particles, m³.
-    pub(crate) fines: f64,
-    /// Liquid on each wall part, m³.
-    pub(crate) parts: Vec<f64>,
-    /// Liquid in bridges, m³.
-    pub(crate) bridges: f64,
-    /// How many bridges there were and are.
-    pub(crate) counts: Counts,
-    /// (total − initial total)/initial total of the liquid.
-    pub(crate) imbalance: f64,
-}
+/// Frames of the replay.
+const FRAMES: u64 = 60;
 
 /// How a run ended.
 #[derive(Debug)]
@@ -77,7 +29,7 @@ pub(crate) struct Outcome {
     pub(crate) steps: u64,
     pub(crate) largest_overlap: f64,
     pub(crate) wall_time: Duration,
-    pub(crate) profile: pendular::dem::Profile,
+    pub(crate) profile: Profile,
 }
 
 /// Runs a built scene to its end, writing rows into `out` as it goes.
@@ -88,16 +40,14 @@ pub(crate) fn run(
     progress: &Progress,
 ) -> Result<Outcome, RunError> {
     let Built { particles, walls, contact, wet, settings, derived } = built;
-    let start = |e| RunError::Scene(crate::error::SceneError::Simulation(e));
     match wet {
         None => {
-            let simulation = Simulation::new(particles, contact, walls, settings).map_err(start)?;
-            Run::new(scene, simulation, derived, out)?.go(progress)
+            let simulation = Simulation::new(particles, contact, walls, settings);
+            Run::new(scene, simulation.map_err(SceneError::from)?, derived, out)?.go(progress)
         }
         Some(wet) => {
-            let term = (contact, wet);
-            let simulation = Simulation::new(particles, term, walls, settings).map_err(start)?;
-            Run::new(scene, simulation, derived, out)?.go(progress)
+            let simulation = Simulation::new(particles, (contact, wet), walls, settings);
+            Run::new(scene, simulation.map_err(SceneError::from)?, derived, out)?.go(progress)
         }
     }
 }
@@ -105,12 +55,12 @@ pub(crate) fn run(
 struct Run<'a, T: Makeup> {
     scene: &'a Scene,
     simulation: Simulation<T, MeshWalls>,
-    derived: Derived,
-    output: Output,
-    passed: Vec<u64>,
-    escaped: u64,
-    fines: f64,
-    first: Option<Tally>,
+    tables: Tables,
+    screening: Screening,
+    apertures: u64,
+    gone: Gone,
+    frames: u64,
+    rows: u64,
 }
 
 impl<'a, T: Makeup> Run<'a, T> {
@@ -122,44 +72,46 @@ impl<'a, T: Makeup> Run<'a, T> {
     ) -> Result<Self, RunError> {
         let parts = simulation.boundary().0.parts();
         let names: Vec<String> = parts.iter().map(|part| part.name.clone()).collect();
-        let output = Output::create(out, scene, &derived, &names)?;
-        let passed = vec![0; scene.classes.len()];
-        Ok(Self { scene, simulation, derived, output, passed, escaped: 0, fines: 0.0, first: None })
+        let tables = Tables::create(out, scene, &derived, &names)?;
+        let screening = Screening::new(scene, derived.class.len());
+        let classes = scene.classes.len();
+        let gone = Gone { collected: vec![0; classes], fines: vec![0.0; classes], escaped: 0 };
+        let apertures = screening.apertures();
+        Ok(Self { scene, simulation, tables, screening, apertures, gone, frames: 0, rows: 0 })
     }
 
     fn go(mut self, progress: &Progress) -> Result<Outcome, RunError> {
         let start = Instant::now();
         let step = self.simulation.settings().time_step;
         let last = (self.scene.time / step).round() as u64;
-        let row_at = |k: u64| (k as f64 * self.scene.output_interval / step).round() as u64;
+        let at = |k: u64, interval: f64| (k as f64 * interval / step).round() as u64;
+        let replay = self.scene.time / FRAMES as f64;
         let first = self.tally();
-        self.output.row(&first)?;
-        self.first = Some(first);
-        let mut row = 1;
-        while self.simulation.step() < last {
-            let to = row_at(row).min(last);
+        loop {
             let now = self.simulation.step();
+            if now == at(self.frames, replay) || now == last {
+                self.frame()?;
+            }
+            if now == at(self.rows, self.scene.output_interval) || now == last {
+                progress.row(&self.row()?);
+            }
+            if now >= last {
+                break;
+            }
+            let next = at(self.rows, self.scene.output_interval).min(at(self.frames, replay));
             // Stay on multiples of the batch, so that passages are booked when they happen.
-            let steps = (BATCH - now % BATCH).min(to - now);
+            let steps = (BATCH - now % BATCH).min(next.min(last) - now);
             let advanced = self.simulation.advance(steps);
-            self.book_departures();
+            self.look()?;
             if let Err(error) = advanced {
-                self.output.row(&self.tally())?;
+                self.row()?;
                 return Err(RunError::Simulation(error));
             }
-            if self.simulation.step() == to {
-                let tally = self.tally();
-                self.output.row(&tally)?;
-                progress.row(&tally);
-                row += 1;
-            }
-            progress.step(&self.simulation, &self.passed, self.scene.time, start);
+            progress.step(&self.simulation, &self.gone.collected, self.scene.time, start);
         }
         progress.finish();
-        let tally = self.tally();
-        let first = self.first.take().unwrap_or_else(|| tally.clone());
         Ok(Outcome {
-            tally,
+            tally: self.tally(),
             first,
             steps: self.simulation.step(),
             largest_overlap: self.simulation.largest_overlap(),
@@ -168,59 +120,54 @@ impl<'a, T: Makeup> Run<'a, T> {
         })
     }
 
-    /// Books what left: through the screen as fines, anything else as escaped.
-    fn book_departures(&mut self) {
-        for Departure { particle, .. } in self.simulation.take_departures() {
-            let film = self.simulation.term_mut().wet_mut().map_or(0.0, |w| w.drain(particle.id));
-            self.fines += film;
-            let sideways = particle.position.truncate().length();
-            let radius = 0.5e-3 * self.scene.screen.diameter_mm;
-            if particle.position.z < self.derived.outlet && sideways <= radius {
-                self.passed[usize::from(particle.class)] += 1;
-            } else {
-                self.escaped += 1;
-            }
-        }
-    }
-
     fn tally(&self) -> Tally {
-        let mut above = vec![0; self.passed.len()];
-        let mut film = vec![0.0; self.passed.len()];
+        Tally::of(&self.simulation, &self.gone, &self.screening.passed)
+    }
+
+    fn row(&mut self) -> Result<Tally, RunError> {
+        let tally = self.tally();
+        let blocked = self.screening.blocked(&self.simulation);
+        self.tables.row(&tally, &blocked, self.apertures)?;
+        self.rows += 1;
+        Ok(tally)
+    }
+
+    fn frame(&mut self) -> Result<(), RunError> {
+        let mut particles: Vec<Particle> = self.simulation.particles().iter().collect();
+        particles.sort_by_key(|particle| particle.id);
         let wet = self.simulation.term().wet();
-        for particle in self.simulation.particles().iter() {
-            let class = usize::from(particle.class);
-            above[class] += 1;
-            film[class] += wet.map_or(0.0, |wet| wet.ledger().volume(Account::Film(particle.id)));
-        }
-        Tally {
-            time: self.simulation.time(),
-            above,
-            passed: self.passed.clone(),
-            escaped: self.escaped,
-            film,
-            fines: self.fines,
-            parts: self.on_parts(),
-            bridges: wet.map_or(0.0, |wet| wet.ledger().in_bridges()),
-            counts: wet.map_or_else(Counts::default, WetTerm::counts),
-            imbalance: wet.map_or(0.0, |wet| wet.ledger().imbalance()),
-        }
+        let film = |id: u32| wet.map_or(0.0, |wet| wet.film_thickness(id));
+        self.tables.frame(self.simulation.time(), &particles, film)?;
+        self.frames += 1;
+        Ok(())
     }
 
-    /// Liquid on each wall part, m³.
-    fn on_parts(&self) -> Vec<f64> {
-        let walls = &self.simulation.boundary().0;
-        let elements = self.simulation.term().wet().map_or(&[][..], |w| Ledger::walls(w.ledger()));
-        (0..walls.parts().len() as u32)
-            .map(|part| {
-                let first = walls.first_element(part) as usize;
-                let count = walls.parts()[part as usize].shape.element_count() as usize;
-                elements.get(first..first + count).map_or(0.0, |e| e.iter().sum())
-            })
-            .collect()
+    /// Books who has passed the screen and who has been collected.
+    fn look(&mut self) -> Result<(), RunError> {
+        let mut passages = self.screening.passages(&self.simulation);
+        let (low, far) = collection(self.scene);
+        for Departure { particle, time } in self.simulation.take_departures() {
+            let x = particle.position;
+            let collected = x.z < low || (x.x > far && x.z < 0.0);
+            if collected {
+                self.screening.note(particle, time, &mut passages);
+            }
+            self.book(&particle, collected);
+        }
+        let wet = self.simulation.term().wet();
+        let film =
+            |id: u32| wet.map_or(0.0, |wet: &WetTerm| wet.ledger().volume(Account::Film(id)));
+        self.tables.passages(&passages, film)
     }
-}
 
-/// Largest speed of any wall, m/s.
-pub(crate) fn wall_speed(walls: &MeshWalls) -> f64 {
-    walls.speed_bound()
+    fn book(&mut self, particle: &Particle, collected: bool) {
+        let class = usize::from(particle.class);
+        let film = self.simulation.term_mut().wet_mut().map_or(0.0, |wet| wet.drain(particle.id));
+        self.gone.fines[class] += film;
+        if collected {
+            self.gone.collected[class] += 1;
+        } else {
+            self.gone.escaped += 1;
+        }
+    }
 }

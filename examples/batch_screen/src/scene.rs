@@ -40,6 +40,13 @@ pub(crate) struct Scene {
     pub(crate) screen: Screen,
     /// How the screen moves.
     pub(crate) motion: ScreenMotion,
+    /// Impact plate and outlet below the screen; without them a particle is collected where it
+    /// has passed.
+    #[serde(default)]
+    pub(crate) housing: Option<Housing>,
+    /// Parts from STL files, beside the built-in ones or in their place.
+    #[serde(default)]
+    pub(crate) parts: Vec<PartFile>,
     /// The liquid; a dry run where it is left out.
     #[serde(default)]
     pub(crate) liquid: Option<LiquidSpec>,
@@ -105,6 +112,16 @@ pub(crate) enum Packing {
         /// Clear height between screen and particles, mm.
         clearance_mm: f64,
     },
+    /// Settled dry in the feed bin, the upper part of the frame; its floor is gone at t = 0.
+    Bin {
+        /// Height of the bin's floor above the wire axes, mm.
+        floor_height_mm: f64,
+        /// Share of the space that the particles fill before they settle, at most 0.35.
+        solid_fraction: f64,
+        /// Longest simulated time for settling, s.
+        #[serde(default = "two")]
+        settle_at_most: f64,
+    },
     /// Read from a CSV file with the header `id,x,y,z,radius,density`.
     File {
         /// The file, relative to the scene file.
@@ -130,6 +147,38 @@ pub(crate) struct Screen {
     pub(crate) wire_sides: u32,
 }
 
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Housing {
+    pub(crate) material: String,
+    /// Slope of the impact plate against the horizontal, degrees; it falls towards +x.
+    pub(crate) plate_angle_deg: f64,
+    /// Distance of the plate's upper end below the frame, mm.
+    pub(crate) plate_gap_mm: f64,
+    /// How far the plate goes on beyond the frame, mm.
+    pub(crate) outlet_length_mm: f64,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PartFile {
+    /// Name in the results; that of a built-in part (`wires`, `frame`, `impact plate`, `outlet`)
+    /// takes its place.
+    pub(crate) name: String,
+    /// The STL file, relative to the scene file.
+    pub(crate) stl: PathBuf,
+    /// Metres per unit of the file.
+    #[serde(default = "millimetre")]
+    pub(crate) scale: f64,
+    pub(crate) material: String,
+    /// Whether it moves with the screen.
+    #[serde(default)]
+    pub(crate) moves: bool,
+    /// Half its width as the liquid sees it, mm; a large wall where it is left out.
+    #[serde(default)]
+    pub(crate) half_side_mm: Option<f64>,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum WireKind {
@@ -147,6 +196,9 @@ pub(crate) struct ScreenMotion {
     pub(crate) amplitude_mm: [f64; 3],
     #[serde(default)]
     pub(crate) phase_deg: [f64; 3],
+    /// Duration of a smooth start of the motion, s; none where it is left out.
+    #[serde(default)]
+    pub(crate) ramp: f64,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -199,6 +251,14 @@ pub(crate) enum OutsideRange {
 
 fn one() -> u64 {
     1
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+fn millimetre() -> f64 {
+    1e-3
 }
 
 fn earth() -> [f64; 3] {

@@ -1,0 +1,180 @@
+//! The bed at the start: placed, read, or settled dry in the feed bin and kept for the next run.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use pendular::MeshWalls;
+use pendular::dem::{Class, Particles, Settings, Simulation};
+
+use super::{apparatus, laws};
+use crate::error::SceneError;
+use crate::packing::{self, Placed, Space};
+use crate::scene::{Packing, Scene};
+
+/// A bed counts as settled below this kinetic energy over the energy of a fall by one radius.
+const AT_REST: f64 = 1e-5;
+/// Steps between looks at the kinetic energy.
+const LOOK: u64 = 1_000;
+
+/// Where a bed comes from and where settled ones are kept.
+pub(crate) struct Source<'a> {
+    /// Folder that the scene's paths are relative to.
+    pub(crate) base: &'a Path,
+    /// Folder of the settled beds; `None` leaves the spheres where they are placed before they
+    /// settle, which is enough to check a scene.
+    pub(crate) beds: Option<&'a Path>,
+    pub(crate) threads: usize,
+}
+
+/// The particles of a scene at t = 0, at rest.
+pub(crate) fn place(
+    scene: &Scene,
+    classes: &[Class],
+    time_step: f64,
+    source: &Source<'_>,
+) -> Result<Vec<Placed>, SceneError> {
+    let radii: Vec<f64> = classes.iter().map(Class::radius).collect();
+    let densities: Vec<f64> = classes.iter().map(Class::density).collect();
+    let counts = counts(scene, classes);
+    match &scene.packing {
+        Packing::File { path } => packing::from_file(&source.base.join(path), &radii, &densities),
+        Packing::Random { solid_fraction, clearance_mm } => {
+            let wire = 0.5 * scene.screen.wire_diameter_mm;
+            let bottom = 1e-3 * (wire + scene.motion.amplitude_mm[2] + clearance_mm);
+            packing::random(&radii, &counts, &space(scene, bottom, *solid_fraction), scene.seed)
+        }
+        Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
+            let kept = source.beds.map(|beds| kept(scene, classes, &counts, beds));
+            if let Some(file) = kept.as_ref().filter(|file| file.exists()) {
+                return packing::from_file(file, &radii, &densities);
+            }
+            let space = space(scene, 1e-3 * floor_height_mm, *solid_fraction);
+            let loose = packing::random(&radii, &counts, &space, scene.seed)?;
+            let Some(file) = kept else { return Ok(loose) };
+            let settled =
+                settle(scene, classes, &loose, time_step, source.threads, *settle_at_most)?;
+            keep(&file, classes, &settled)?;
+            Ok(settled)
+        }
+    }
+}
+
+fn counts(scene: &Scene, classes: &[Class]) -> Vec<u64> {
+    let one = |(spec, class): (&crate::scene::SizeClass, &Class)| {
+        let by_mass = spec.mass_g.map(|g| (1e-3 * g / class.mass()).round() as u64);
+        by_mass.or(spec.count).unwrap_or(0)
+    };
+    scene.classes.iter().zip(classes).map(one).collect()
+}
+
+fn space(scene: &Scene, bottom: f64, solid_fraction: f64) -> Space {
+    let motion = &scene.motion.amplitude_mm;
+    let radius = 1e-3 * (0.5 * scene.screen.diameter_mm - motion[0].hypot(motion[1]));
+    Space { radius, bottom, top: 1e-3 * scene.screen.height_mm, solid_fraction }
+}
+
+/// Lets the loose spheres fall onto the floor of the bin until they are at rest.
+fn settle(
+    scene: &Scene,
+    classes: &[Class],
+    loose: &[Placed],
+    time_step: f64,
+    threads: usize,
+    at_most: f64,
+) -> Result<Vec<Placed>, SceneError> {
+    let mut particles = Particles::new(classes.to_vec())?;
+    for one in loose {
+        particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;
+    }
+    let mass = |class: u16| classes[usize::from(class)].mass();
+    let fall = |class: u16| classes[usize::from(class)].radius();
+    let gravity = DVec3::from_array(scene.gravity);
+    let unit: f64 =
+        loose.iter().map(|one| mass(one.class) * gravity.length() * fall(one.class)).sum();
+    let floor = apparatus::floor(scene).unwrap_or(0.0);
+    let walls = MeshWalls(apparatus::bin(scene, floor)?);
+    let settings = Settings { gravity, threads, ..Settings::new(time_step) };
+    let contact = laws::contact(scene, classes)?;
+    let mut simulation = Simulation::new(particles, contact, walls, settings)?;
+    while simulation.time() < at_most {
+        simulation.advance(LOOK)?;
+        let energy = simulation.particles().kinetic_energy();
+        if energy < AT_REST * unit && simulation.time() > 0.1 {
+            break;
+        }
+    }
+    let mut all: Vec<_> = simulation.particles().iter().collect();
+    all.sort_by_key(|particle| particle.id);
+    let placed = |p: &pendular::dem::Particle| Placed { class: p.class, position: p.position };
+    Ok(all.iter().map(placed).collect())
+}
+
+/// The file of a settled bed: its name is a hash of all that made it.
+fn kept(scene: &Scene, classes: &[Class], counts: &[u64], beds: &Path) -> PathBuf {
+    let made_of = format!(
+        "{:?} {classes:?} {counts:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        env!("CARGO_PKG_VERSION"),
+        scene.seed,
+        scene.packing,
+        scene.gravity,
+        scene.materials,
+        scene.contacts,
+        scene.contact,
+        (scene.screen.diameter_mm, scene.screen.height_mm, scene.screen.wires),
+        scene.motion,
+    );
+    beds.join(format!("bed-{:016x}.csv", fnv(made_of.as_bytes())))
+}
+
+/// FNV-1a, 64 bits: short, and the same everywhere.
+fn fnv(bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, &b| (hash ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// Writes a bed beside its place and moves it there, so that no half file is ever read.
+fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneError> {
+    let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
+    let folder = file.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).map_err(fail)?;
+    let part = file.with_extension(format!("part-{}", std::process::id()));
+    let mut out = std::io::BufWriter::new(fs::File::create(&part).map_err(fail)?);
+    let mut write = || -> std::io::Result<()> {
+        writeln!(out, "id,x,y,z,radius,density")?;
+        for (id, one) in settled.iter().enumerate() {
+            let class = &classes[usize::from(one.class)];
+            let [x, y, z] = one.position.to_array();
+            // The shortest text that reads back to the same bits.
+            writeln!(out, "{id},{x:?},{y:?},{z:?},{:?},{:?}", class.radius(), class.density())?;
+        }
+        out.flush()?;
+        out.get_ref().sync_all()
+    };
+    write().map_err(fail)?;
+    fs::rename(&part, file).map_err(fail)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kept_bed_reads_back_to_the_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("deep/bed.csv");
+        let classes = [Class::new(2.5e-3, 1358.0, 0).unwrap()];
+        let position = DVec3::new(0.1 + 0.2, -1.0 / 3.0, 1e-17);
+        let bed = [Placed { class: 0, position }];
+        keep(&file, &classes, &bed).unwrap();
+        assert_eq!(packing::from_file(&file, &[2.5e-3], &[1358.0]).unwrap(), bed);
+        assert_eq!(fs::read_dir(file.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn fnv_of_a_known_text() {
+        assert_eq!(fnv(b"a"), 0xaf63_dc4c_8601_ec8c);
+    }
+}

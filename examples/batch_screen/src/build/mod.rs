@@ -1,0 +1,158 @@
+//! From a scene to a simulation.
+
+pub(crate) mod apparatus;
+mod bed;
+mod laws;
+
+use glam::DVec3;
+use pendular::capillary::AnyCapillary;
+use pendular::contact::Linear;
+use pendular::dem::{Class, Contact, Limit, PairTerm, Particles, Settings, StabilityLoad};
+use pendular::lubrication::{AnyNormalDrag, AnyTangentialDrag};
+use pendular::transfer::film;
+use pendular::{MeshWalls, Wet};
+
+pub(crate) use self::bed::Source;
+use crate::error::SceneError;
+use crate::packing::Placed;
+use crate::scene::Scene;
+
+/// The liquid term of every scene: laws chosen at run time.
+pub(crate) type WetTerm = Wet<AnyCapillary, AnyNormalDrag, AnyTangentialDrag>;
+
+/// All that a run is made of.
+pub(crate) struct Built {
+    pub(crate) particles: Particles,
+    pub(crate) walls: MeshWalls,
+    pub(crate) contact: Contact<Linear>,
+    pub(crate) wet: Option<WetTerm>,
+    pub(crate) settings: Settings,
+    pub(crate) derived: Derived,
+}
+
+/// Numbers that follow from a scene.
+#[derive(Debug, Clone)]
+pub(crate) struct Derived {
+    /// Particles of each class.
+    pub(crate) counts: Vec<u64>,
+    /// Mass of one particle of each class, kg.
+    pub(crate) masses: Vec<f64>,
+    /// Dry mass of all particles, kg.
+    pub(crate) solid_mass: f64,
+    /// Film thickness at the start, m.
+    pub(crate) film: f64,
+    /// Liquid volume, m³.
+    pub(crate) liquid: f64,
+    /// Class, by particle id.
+    pub(crate) class: Vec<u16>,
+}
+
+/// Builds a scene, its bed settled if it is to be.
+pub(crate) fn build(scene: &Scene, source: &Source<'_>) -> Result<Built, SceneError> {
+    let classes = classes(scene)?;
+    let contact = laws::contact(scene, &classes)?;
+    let dry_step = scene.time_step.unwrap_or_else(|| {
+        SHARE * Limit::packing(&classes, &contact.stability(&classes)).time_step
+    });
+    let placed = bed::place(scene, &classes, dry_step, source)?;
+    let mut particles = Particles::new(classes.clone())?;
+    for one in &placed {
+        particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;
+    }
+    let walls = apparatus::walls(scene, source.base)?;
+    let derived = derive(scene, &classes, &placed);
+    let wet = match &scene.liquid {
+        Some(spec) => Some(laws::wet(scene, spec, &classes, &derived, &walls)?),
+        None => None,
+    };
+    let settings = settings(scene, &classes, &contact, wet.as_ref(), source.threads);
+    Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
+}
+
+fn classes(scene: &Scene) -> Result<Vec<Class>, SceneError> {
+    let one = |class: &crate::scene::SizeClass| {
+        let material = scene.material(&class.material).unwrap_or_default();
+        Class::new(0.5e-3 * class.diameter_mm, class.density, material)
+    };
+    Ok(scene.classes.iter().map(one).collect::<Result<_, _>>()?)
+}
+
+fn derive(scene: &Scene, classes: &[Class], placed: &[Placed]) -> Derived {
+    let mut counts = vec![0; classes.len()];
+    placed.iter().for_each(|one| counts[usize::from(one.class)] += 1);
+    let masses: Vec<f64> = classes.iter().map(Class::mass).collect();
+    let solid_mass = counts.iter().zip(&masses).map(|(&n, m)| n as f64 * m).sum();
+    let spec = scene.liquid.as_ref();
+    let liquid =
+        spec.map_or(0.0, |liquid| 0.01 * liquid.moisture_percent * solid_mass / liquid.density);
+    Derived {
+        film: film_thickness(classes, &counts, liquid),
+        class: placed.iter().map(|one| one.class).collect(),
+        counts,
+        masses,
+        solid_mass,
+        liquid,
+    }
+}
+
+/// The film thickness that all particles share when they carry the volume `liquid`, by bisection.
+fn film_thickness(classes: &[Class], counts: &[u64], liquid: f64) -> f64 {
+    let volume = |h: f64| -> f64 {
+        let one = |class: &Class| film::volume(class.radius(), h).unwrap_or(0.0);
+        classes.iter().zip(counts).map(|(class, &n)| n as f64 * one(class)).sum()
+    };
+    if liquid <= 0.0 {
+        return 0.0;
+    }
+    let (mut low, mut high) = (0.0, 1e-6);
+    while volume(high) < liquid {
+        high *= 2.0;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if volume(middle) < liquid { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Share of the stability limit that a scene without a time step runs at.
+const SHARE: f64 = 0.5;
+
+fn settings(
+    scene: &Scene,
+    classes: &[Class],
+    contact: &Contact<Linear>,
+    wet: Option<&WetTerm>,
+    threads: usize,
+) -> Settings {
+    let limit = || Limit::packing(classes, &loads(classes, contact, wet)).time_step;
+    let step = scene.time_step.unwrap_or_else(|| SHARE * limit());
+    let around = 1e-3 * (0.5 * scene.screen.diameter_mm + scene.screen.wire_diameter_mm) + 5e-3;
+    let (low, far) = apparatus::collection(scene);
+    let top = 1e-3 * (scene.screen.height_mm + 50.0);
+    let mut settings = Settings::new(step);
+    settings.gravity = DVec3::from_array(scene.gravity);
+    settings.threads = threads;
+    let far = if far.is_finite() { far } else { around };
+    settings.domain =
+        Some((DVec3::new(-around, -around, low), DVec3::new(far.max(around), around, top)));
+    settings
+}
+
+/// The longest stable time step of a built scene.
+pub(crate) fn limit(built: &Built) -> Limit {
+    let classes = built.particles.classes();
+    Limit::packing(classes, &loads(classes, &built.contact, built.wet.as_ref()))
+}
+
+fn loads(
+    classes: &[Class],
+    contact: &Contact<Linear>,
+    wet: Option<&WetTerm>,
+) -> Vec<StabilityLoad> {
+    let dry = contact.stability(classes);
+    match wet {
+        None => dry,
+        Some(wet) => dry.into_iter().zip(wet.stability(classes)).map(|(a, b)| a + b).collect(),
+    }
+}
