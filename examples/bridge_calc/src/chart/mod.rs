@@ -49,7 +49,7 @@ pub(crate) struct Measured {
 pub(crate) fn run(out: &Path, mut say: impl Write) -> Result<(), ChartError> {
     let start = std::time::Instant::now();
     // Alone on the machine as far as we can help it: the grid uses all cores, later.
-    let costs = AnyCapillary::ALL.map(cost::measure);
+    let costs = cost::measure();
     let samples = measure::measure()?;
     let laws = summarise(&samples, &costs);
     let target = Target { directory: out };
