@@ -7,6 +7,7 @@ mod cli;
 mod error;
 mod makeup;
 mod packing;
+mod page;
 mod progress;
 mod report;
 mod run;

@@ -91,7 +91,9 @@ impl Run {
         let names = source.header()?;
         let ends = ["time_s", "total", "particles_above"];
         let found = (names.first(), names.get(1), names.last());
-        if names.len() < 3 || found != (Some(&ends[0].into()), Some(&ends[1].into()), Some(&ends[2].into())) {
+        if names.len() < 3
+            || found != (Some(&ends[0].into()), Some(&ends[1].into()), Some(&ends[2].into()))
+        {
             let message = "the header; allowed: time_s,total,<classes>,particles_above".to_owned();
             return Err(source.at(1, message));
         }
@@ -130,7 +132,8 @@ impl Run {
             let entry = listed.into_iter().find(|c| c["name"].as_str() == Some(name));
             let known = entry.and_then(|class| class["diameter_mm"].as_f64());
             known.or_else(|| {
-                let (class, diameter) = (passages?.column("class")?, passages?.column("diameter_m")?);
+                let (class, diameter) =
+                    (passages?.column("class")?, passages?.column("diameter_m")?);
                 let row = class.iter().position(|c| *c == k as f64)?;
                 diameter.get(row).map(|d| 1e3 * d)
             })

@@ -72,10 +72,10 @@ pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), PageError> 
         runs.push(Run::read(folder, &COMPARED)?);
     }
     // Folders of the same name are told apart by their paths.
-    for k in 0..runs.len() {
-        if runs.iter().filter(|run| run.name == runs[k].name).count() > 1 {
-            let name = folders[k].display().to_string();
-            runs[k].name = name;
+    let names: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
+    for ((run, folder), name) in runs.iter_mut().zip(folders).zip(&names) {
+        if names.iter().filter(|other| *other == name).count() > 1 {
+            run.name = folder.display().to_string();
         }
     }
     let runs: Vec<&Run> = runs.iter().collect();

@@ -51,7 +51,10 @@ impl Replay {
             for (k, value) in values.iter_mut().enumerate() {
                 *value = finite(cell(k + 2), COLUMNS[k + 2])? as f32;
             }
-            let particle = (class(cell(1), classes)? as u16, values);
+            // This table gives classes by their number; a name is understood too.
+            let index = cell(1).parse().ok().filter(|k| *k < classes.len());
+            let index = index.map_or_else(|| class(cell(1), classes), Ok)?;
+            let particle = (index as u16, values);
             match moments.last_mut() {
                 Some(last) if last.time == time => last.particles.push(particle),
                 _ => moments.push(Moment { time, particles: vec![particle] }),
@@ -177,7 +180,8 @@ mod tests {
         let digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         let values: Vec<u32> =
             text.chars().filter_map(|c| digits.find(c)).map(|k| k as u32).collect();
-        let bits: Vec<u32> = values.iter().flat_map(|v| (0..6).map(move |k| v >> (5 - k) & 1)).collect();
+        let bits: Vec<u32> =
+            values.iter().flat_map(|v| (0..6).map(move |k| v >> (5 - k) & 1)).collect();
         bits.chunks_exact(8).map(|b| b.iter().fold(0, |w, bit| w << 1 | *bit as u8)).collect()
     }
 
@@ -204,9 +208,8 @@ mod tests {
 
     #[test]
     fn thinning_keeps_within_the_bytes_and_both_ends() {
-        let rows: String = (0..50)
-            .flat_map(|t| (0..30).map(move |k| format!("{t},{k},a,0,0,0,0\n")))
-            .collect();
+        let rows: String =
+            (0..50).flat_map(|t| (0..30).map(move |k| format!("{t},{k},a,0,0,0,0\n"))).collect();
         let whole = read(&rows).unwrap();
         for bytes in [0, 100, 300, 1000, 5000, 1_000_000] {
             let mut replay = whole.clone();
@@ -215,7 +218,10 @@ mod tests {
             assert!(json["data"].as_str().unwrap().len() <= bytes + 4);
             assert_eq!(replay.len(), (bytes / 284).min(50), "{bytes}");
             if replay.len() > 1 {
-                assert_eq!((replay.moments[0].time, replay.moments[replay.len() - 1].time), (0.0, 49.0));
+                assert_eq!(
+                    (replay.moments[0].time, replay.moments[replay.len() - 1].time),
+                    (0.0, 49.0)
+                );
             }
         }
     }

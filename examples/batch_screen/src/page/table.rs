@@ -60,8 +60,7 @@ impl<'a> Source<'a> {
         let mut reader = csv::Reader::from_reader(self.bytes.as_slice());
         let mut record = csv::StringRecord::new();
         while reader.read_record(&mut record).map_err(|e| self.csv(&e))? {
-            let line = record.position().map_or(0, csv::Position::line);
-            each(&record).map_err(|message| self.at(line, message))?;
+            each(&record).map_err(|message| self.at(self.line(record.position()), message))?;
         }
         Ok(())
     }
@@ -71,8 +70,16 @@ impl<'a> Source<'a> {
         PageError::Csv { path: self.path.to_path_buf(), line, message }
     }
 
+    /// The line of a record: what the reader gives may be an empty line before it.
+    fn line(&self, position: Option<&csv::Position>) -> u64 {
+        let start = position.map_or(0, |p| p.byte() as usize).min(self.bytes.len());
+        let empty = self.bytes[start..].iter().take_while(|b| matches!(b, b'\n' | b'\r')).count();
+        let ends = self.bytes[..start + empty].iter().filter(|b| **b == b'\n');
+        1 + ends.count() as u64
+    }
+
     fn csv(&self, error: &csv::Error) -> PageError {
-        let line = error.position().map_or(1, csv::Position::line);
+        let line = self.line(error.position());
         let message = match error.kind() {
             csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
                 format!("{len} cells; allowed: {expected_len}, as in the header")
@@ -95,7 +102,9 @@ pub(crate) fn class(cell: &str, classes: &[String]) -> Result<usize, String> {
 pub(crate) fn number(cell: &str, column: &str) -> Result<f64, String> {
     match cell.trim() {
         "" => Ok(f64::NAN),
-        text => text.parse().map_err(|_| format!("`{cell}` in column `{column}`; allowed: a number")),
+        text => {
+            text.parse().map_err(|_| format!("`{cell}` in column `{column}`; allowed: a number"))
+        }
     }
 }
 
@@ -139,7 +148,8 @@ impl Table {
         let last = self.rows - 1;
         for column in &mut self.columns {
             let mut row = 0..;
-            column.retain(|_| row.next().is_some_and(|k: usize| k.is_multiple_of(step) || k == last));
+            column
+                .retain(|_| row.next().is_some_and(|k: usize| k.is_multiple_of(step) || k == last));
         }
     }
 
@@ -213,7 +223,8 @@ mod tests {
     fn thinning_keeps_both_ends_and_its_limit() {
         for (rows, most) in [(10, 3), (100, 7), (1000, 999), (5, 5), (5, 0), (0, 3)] {
             let column: Vec<f64> = (0..rows).map(f64::from).collect();
-            let mut table = Table { names: vec!["t".into()], columns: vec![column], rows: rows as usize };
+            let mut table =
+                Table { names: vec!["t".into()], columns: vec![column], rows: rows as usize };
             table.thin(most);
             let kept = &table.columns[0];
             assert!(kept.len() <= most.max(1) + 1, "{rows} to {most}: {kept:?}");
@@ -224,7 +235,11 @@ mod tests {
 
     #[test]
     fn floats_go_column_by_column() {
-        let table = Table { names: vec!["a".into(), "b".into()], columns: vec![vec![1.0], vec![-2.0]], rows: 1 };
+        let table = Table {
+            names: vec!["a".into(), "b".into()],
+            columns: vec![vec![1.0], vec![-2.0]],
+            rows: 1,
+        };
         // 1.0 is 3f800000 and -2.0 is c0000000 in IEEE 754 single precision, little-endian here.
         let json = table.json();
         assert_eq!(json["data"], base64(&[0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0]));

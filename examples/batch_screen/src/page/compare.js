@@ -1,0 +1,125 @@
+// The page that lays runs over one another, and the start of either page.
+
+// All keys of some objects, flat: `screen.mesh.a` for nested ones.
+function flat(object, before = '') {
+  const out = {};
+  for (const [key, value] of Object.entries(object || {})) {
+    const name = before + key;
+    if (value && typeof value === 'object' && !Array.isArray(value)) Object.assign(out, flat(value, `${name}: `));
+    else out[name] = value;
+  }
+  return out;
+}
+
+function overlaid(runs, of) {
+  return runs.map((run, k) => {
+    const xy = of(run);
+    return xy && xy[0] && xy[1] && xy[0].length ? { name: run.name, x: xy[0], y: xy[1], ...look(k), width: 2 } : null;
+  }).filter(Boolean);
+}
+
+function overlayFigure(title, note, runs, of, spec, wide) {
+  const series = overlaid(runs, of);
+  return series.length ? figure(title, note, (host) => lineChart(host, { title, ...TIME, ...spec, series }), wide) : null;
+}
+
+function resultsTable(runs, names) {
+  const has = (get) => runs.some((run) => get(run.summary) !== undefined);
+  const at = (...keys) => (s) => keys.reduce((o, key) => (o === undefined || o === null ? undefined : o[key]), s);
+  const last = (run, name) => {
+    const t = table(run.tables.retained);
+    return t.rows && t.column(name) ? t.column(name)[t.rows - 1] : NaN;
+  };
+  const columns = [
+    ['time, s', (run) => num(last(run, 'time_s'))],
+    ['retained', (run) => percent(last(run, 'total'))],
+    ...names.map((name) => [`retained ${name}`, (run) => percent(last(run, name))]),
+    ...[
+      ['bridges formed', at('bridges', 'formed'), count],
+      ['outside a law’s range', at('bridges', 'outside_law_range'), count],
+      ['liquid', at('derived', 'liquid_m3'), (v) => told(v, 'm³')],
+      ['liquid imbalance', at('liquid_imbalance'), (v) => num(v, 2)],
+      ['largest overlap, share of radius', at('largest_overlap'), (v) => percent(v, 2)],
+      ['computing time', at('wall_time_s'), clock],
+    ].filter(([, get]) => has(get)).map(([name, get, text]) => [name, (run) => {
+      const value = get(run.summary);
+      return typeof value === 'number' ? text(value) : '–';
+    }]),
+  ];
+  return grid(['run', ...columns.map(([name]) => name)], runs.map((run) => [run.name, ...columns.map(([, get]) => get(run))]));
+}
+
+// What differs between the runs, of what was assumed and what follows from their scenes.
+function differences(runs) {
+  const all = runs.map(({ summary }) => flat({
+    scene: summary.scene, title: summary.title, assumed: summary.assumptions, derived: summary.derived, budget: undefined,
+  }));
+  const keys = [...new Set(all.flatMap(Object.keys))].filter((key) => new Set(all.map((o) => JSON.stringify(o[key]))).size > 1);
+  if (!keys.length) return null;
+  const label = (key) => {
+    const { label: words, unit } = named(key);
+    return [words, unit];
+  };
+  return grid(['', ...runs.map((run) => run.name)], keys.map((key) => {
+    const [words, unit] = label(key);
+    return [words, ...all.map((o) => told(o[key], unit))];
+  }));
+}
+
+function trompOf(run) {
+  const t = table(run.tables.partition);
+  if (!t || !t.rows) return null;
+  const known = run.classes.filter((c) => c.diameter_mm && t.column(c.name)).sort((a, b) => a.diameter_mm - b.diameter_mm);
+  if (known.length < 2) return null;
+  return [Float32Array.from(known, (c) => c.diameter_mm), Float32Array.from(known, (c) => t.column(c.name)[t.rows - 1])];
+}
+
+function comparePage(data) {
+  const { runs } = data;
+  const names = [...new Set(runs.flatMap(orderOf))];
+  const retained = (name) => (run) => {
+    const t = table(run.tables.retained);
+    return [t.column('time_s'), t.column(name)];
+  };
+  const share = { y: 'retained, %', percent: true, from: 0, to: 1.02 };
+  const fines = (run) => {
+    const t = table(run.tables.liquid);
+    if (!t || !t.column('total [m3]')) return null;
+    const gone = t.names.filter((name) => name.startsWith('fines')).map((name) => t.column(name));
+    return [t.column('time_s'), Float32Array.from(t.column('total [m3]'), (all, k) => gone.reduce((sum, c) => sum + c[k], 0) / all)];
+  };
+  const alive = (run) => {
+    const t = table(run.tables.bridges);
+    return t ? [t.column('time_s'), t.column('alive')] : null;
+  };
+  const charts = [
+    overlayFigure('Fraction retained', 'All classes together.', runs, retained('total'), { ...share, tall: 400 }, true),
+    ...(names.length > 1 ? names.map((name) => overlayFigure(`Retained of ${name}`, null, runs, retained(name), share)) : []),
+    overlayFigure('Partition (Tromp) curves at the end', 'Probability of having passed against diameter.', runs, trompOf,
+      { x: 'diameter, mm', xUnit: 'mm', y: 'passed, %', percent: true, from: 0, to: 1.02, points: true }),
+    overlayFigure('Liquid gone with the fines', 'Share of all liquid.', runs, fines, { y: 'liquid, %', percent: true, from: 0 }),
+    overlayFigure('Bridges alive', null, runs, alive, { y: 'bridges' }),
+  ];
+  const differ = differences(runs);
+  const notes = runs.flatMap((run) => run.notes.map((text) => `${run.name}: ${text}`));
+  return [
+    el('header', {}, el('p', { class: 'over' }, data.program), el('h1', {}, data.title),
+      el('p', { class: 'lead' }, runs.map((run) => run.name).join(', '))),
+    section('Results', null, resultsTable(runs, names)),
+    el('div', { class: 'charts' }, charts),
+    differ ? section('What differs', 'Of the assumptions and of what follows from the scenes.', differ) : null,
+    notesSection(notes),
+  ];
+}
+
+{
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const host = document.getElementById('page');
+  const parts = data.kind === 'compare' ? comparePage(data) : reportPage(data);
+  host.replaceChildren(...parts.filter(Boolean));
+  for (const node of host.querySelectorAll('.charts > *')) if (!node.hasChildNodes()) node.remove();
+  // Canvases take their colours when they are drawn: once more when light turns dark.
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+    for (const node of host.children) if (node.redraw) node.redraw();
+  });
+}

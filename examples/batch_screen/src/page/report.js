@@ -1,0 +1,297 @@
+// The page of one run.
+
+const orderOf = (run) => run.classes.map((c) => c.name);
+
+// A column in another unit.
+const times = (column, factor) => Float32Array.from(column, (v) => v * factor);
+
+const TIME = { x: 'time, s', xUnit: 's' };
+
+function head(run, program) {
+  const s = run.summary;
+  const retained = table(run.tables.retained);
+  const last = retained.rows - 1;
+  const [first, now] = ['particles_above'].map((name) => retained.column(name)).flatMap((c) => [c[0], c[last]]);
+  const total = retained.column('total')[last];
+  const time = retained.column('time_s')[last];
+  const sentence = retained.rows
+    ? `After ${num(time)} s, ${count(first - now)} of ${count(first)} spheres had left the screen, and ${percent(total)} of the mass was still on it.`
+    : 'The run has no rows yet.';
+  const tile = (value, text) => el('div', { class: 'tile' }, el('b', {}, value), el('span', {}, text));
+  const tiles = [];
+  if (retained.rows) tiles.push(tile(percent(total), 'of the mass retained'), tile(count(now), 'spheres above'));
+  const bridges = s.bridges || {};
+  if (typeof bridges.formed === 'number') tiles.push(tile(count(bridges.formed), 'bridges formed'));
+  if (s.derived && typeof s.derived.liquid_m3 === 'number' && s.derived.liquid_m3 > 0) tiles.push(tile(told(s.derived.liquid_m3, 'm³'), 'liquid'));
+  if (typeof s.liquid_imbalance === 'number') tiles.push(tile(num(s.liquid_imbalance, 2), 'liquid imbalance, relative'));
+  if (typeof s.wall_time_s === 'number') tiles.push(tile(clock(s.wall_time_s), 'computing time'));
+  return el('header', {}, el('p', { class: 'over' }, [program, run.name].join(' · ')),
+    el('h1', {}, s.title || run.name), el('p', { class: 'lead' }, sentence), el('div', { class: 'tiles' }, tiles));
+}
+
+function clock(seconds) {
+  if (seconds < 90) return `${num(seconds, 3)} s`;
+  if (seconds < 5400) return `${num(seconds / 60, 3)} min`;
+  return `${num(seconds / 3600, 3)} h`;
+}
+
+// Names and values of an object, as a list.
+function facts(object, order, badge) {
+  return el('dl', {}, Object.entries(object).map(([key, value]) => {
+    const { label, unit } = named(key);
+    return el('div', {}, el('dt', {}, label, badge ? el('em', {}, badge) : null), el('dd', {}, told(value, unit, order)));
+  }));
+}
+
+function sceneSection(run) {
+  const { summary } = run;
+  const blocks = [];
+  const block = (title, note, body) => blocks.push(el('div', { class: 'block' }, el('h3', {}, title), note ? el('p', {}, note) : null, body));
+  const derived = { ...(summary.derived || {}) };
+  for (const key of ['steps', 'threads', 'largest_overlap', 'escaped']) {
+    if (key in summary) derived[key] = summary[key];
+  }
+  if (Object.keys(derived).length) block('What follows from the scene', null, facts(derived, orderOf(run)));
+  const assumptions = summary.assumptions;
+  if (assumptions && typeof assumptions === 'object' && Object.keys(assumptions).length) {
+    const list = Array.isArray(assumptions)
+      ? el('ul', { class: 'plain' }, assumptions.map((text) => el('li', {}, el('em', {}, 'assumed'), ' ', told(text))))
+      : facts(assumptions, orderOf(run), 'assumed');
+    block('Assumptions', 'Not given by a source; the results depend on them.', list);
+  }
+  return blocks.length ? el('section', { class: 'pair' }, blocks) : null;
+}
+
+function classSeries(run, source, column = (name) => source.column(name)) {
+  const at = source.column('time_s');
+  return run.classes.map((c, k) => ({ name: c.name, x: at, y: column(c.name), ...look(k) })).filter((s) => s.y);
+}
+
+function retainedFigure(run) {
+  const t = table(run.tables.retained);
+  const series = [{ name: 'total', x: t.column('time_s'), y: t.column('total'), ...TOTAL }, ...classSeries(run, t)];
+  const title = 'Fraction retained';
+  return figure(title, 'Mass above the screen over the mass at the start: in all, and of each class.',
+    (host) => lineChart(host, { title, ...TIME, y: 'retained, %', percent: true, from: 0, to: 1.02, series, tall: 380 }), true);
+}
+
+// Passages per second in bins of a round width.
+function rateFigure(run) {
+  const retained = table(run.tables.retained);
+  const at = retained.column('time_s');
+  const end = at[at.length - 1];
+  const start = at[0];
+  if (!(end > start)) return null;
+  const [zero, step] = ticks(0, end - start, 30);
+  const width = step - zero;
+  const bins = Math.max(1, Math.ceil((end - start) / width - 1e-6));
+  const edges = Float32Array.from({ length: bins + 1 }, (_, k) => Math.min(end, start + k * width));
+  const rate = (add) => {
+    const sums = new Float32Array(bins + 1);
+    add((time, n) => {
+      const k = Math.min(bins - 1, Math.max(0, Math.floor((time - start) / width + 1e-6)));
+      sums[k] += n / (edges[k + 1] - edges[k]);
+    });
+    sums[bins] = sums[bins - 1];
+    return sums;
+  };
+  const passages = table(run.tables.passages);
+  const series = [];
+  if (passages) {
+    const [when, of] = [passages.column('time_s'), passages.column('class')];
+    run.classes.forEach((c, k) => {
+      const y = rate((put) => when.forEach((time, row) => { if (of[row] === k) put(time, 1); }));
+      if (y.some((v) => v > 0)) series.push({ name: c.name, x: edges, y, step: true, ...look(k) });
+    });
+  } else {
+    const above = retained.column('particles_above');
+    const y = rate((put) => above.forEach((n, row) => { if (row) put(at[row] - 1e-4 * width, above[row - 1] - n); }));
+    series.push({ name: 'all classes', x: edges, y, step: true, ...TOTAL });
+  }
+  if (!series.length) return null;
+  const title = 'Passage rate';
+  return figure(title, `Spheres passing per second, counted over ${num(width)} s.`,
+    (host) => lineChart(host, { title, ...TIME, y: 'passages, 1/s', series }));
+}
+
+function trompFigure(run) {
+  const t = table(run.tables.partition);
+  if (!t || !t.rows) return null;
+  const known = run.classes.map((c, k) => ({ ...c, k })).filter((c) => c.diameter_mm && t.column(c.name));
+  if (known.length < 2) return null;
+  known.sort((a, b) => a.diameter_mm - b.diameter_mm);
+  const x = Float32Array.from(known, (c) => c.diameter_mm);
+  const row = (k) => Float32Array.from(known, (c) => t.column(c.name)[k]);
+  const at = t.column('time_s');
+  const last = t.rows - 1;
+  const rows = [...new Set([Math.round(last / 4), Math.round(last / 2), last])].filter((k) => k > 0 || last === 0);
+  const series = rows.map((k, order) => ({
+    name: `${num(at[k], 3)} s`, x, y: row(k), ...(k === last ? { ...TOTAL, mark: 'circle' } : look(order)),
+  }));
+  const get = (name) => (t.column(name) ? t.column(name)[last] : NaN);
+  const cut = get('cut_size_mm');
+  const verticals = Number.isFinite(cut) ? [{ x: cut, text: `cut size ${num(cut, 3)} mm` }] : [];
+  const imperfection = get('imperfection');
+  const title = 'Partition (Tromp) curve';
+  const note = `Probability of having passed against diameter${Number.isFinite(imperfection) ? `; imperfection ${num(imperfection, 3)}` : ''}${Number.isFinite(cut) ? '' : '; the cut size is not defined: no class is near one half'}.`;
+  return figure(title, note, (host) => lineChart(host, {
+    title, x: 'diameter, mm', xUnit: 'mm', y: 'passed, %', percent: true, from: 0, to: 1.02, points: true, verticals, series,
+  }));
+}
+
+// Bands of the liquid: above by class, on fines, on walls, in bridges.
+function liquidBands(run, t, factor) {
+  const bands = [];
+  const walls = ['#8a8f98', '#b08968', '#7f9172', '#a28fb0', '#c2a878', '#6f8fa6'];
+  let wall = 0;
+  for (const name of t.names) {
+    if (!name.endsWith(' [m3]') || name === 'total [m3]') continue;
+    const short = name.slice(0, -5);
+    const values = times(t.column(name), factor);
+    const of = run.classes.findIndex((c) => short === `above ${c.name}` || short === `fines ${c.name}`);
+    if (short === 'bridges') bands.push({ name: 'in bridges', values, color: 'var(--bridge)', kind: 'cross', rank: 1 });
+    else if (of >= 0 && short.startsWith('above ')) bands.push({ name: `above ${run.classes[of].name}`, values, color: `var(--c${of % 8})`, kind: 'plain', rank: 0 });
+    else if (of >= 0 || short === 'fines') bands.push({ name: of >= 0 ? short.replace('fines', 'passed') : 'on fines', values, color: of >= 0 ? `var(--c${of % 8})` : 'var(--soft)', kind: 'hatch', rank: 3 });
+    else {
+      bands.push({ name: short, values, color: walls[wall % walls.length], kind: wall % 2 ? 'bars' : 'dots', rank: 2 });
+      wall += 1;
+    }
+  }
+  bands.sort((a, b) => a.rank - b.rank);
+  return bands.filter((b) => b.values.some((v) => v > 0));
+}
+
+function liquidFigure(run) {
+  const t = table(run.tables.liquid);
+  if (!t || t.rows < 2) return null;
+  const most = range(t.names.map((name, k) => (name.endsWith('[m3]') ? t.columns[k] : [])))[1];
+  const [factor, unit] = scaleOf('m³', most);
+  const bands = liquidBands(run, t, 1 / factor);
+  if (!bands.length) return null;
+  const title = 'Where the liquid is';
+  return figure(title, 'Plain: on spheres above; crossed: in bridges; dotted and barred: on walls; hatched: gone with spheres that passed.',
+    (host) => stackChart(host, { title, ...TIME, y: `liquid, ${unit}`, at: t.column('time_s'), bands, tall: 400 }), true);
+}
+
+function bridgesFigures(run) {
+  const t = table(run.tables.bridges);
+  if (!t || t.rows < 2) return [];
+  const x = t.column('time_s');
+  const pick = (names) => names.map(([column, name, k]) => ({ name, x, y: t.column(column), ...(k < 0 ? TOTAL : look(k)) })).filter((s) => s.y);
+  const alive = pick([['alive', 'all', -1], ['alive_wall', 'to walls', 0]]);
+  const sums = pick([['formed', 'formed', 0], ['ruptured', 'ruptured', 1], ['extrapolated', 'outside a law’s range', 2]]);
+  const volume = t.column('mean_v_star');
+  const out = [];
+  const chart = (title, note, y, series) => {
+    if (series.length) out.push(figure(title, note, (host) => lineChart(host, { title, ...TIME, y, series })));
+  };
+  chart('Bridges alive', volume ? `Their mean reduced volume V* is ${num(volume[t.rows - 1], 3)} at the end.` : null, 'bridges', alive);
+  chart('Bridges so far', 'Formed and ruptured since the start, and those formed outside the range in which a law was measured.', 'bridges', sums);
+  return out;
+}
+
+function peggingFigure(run) {
+  const t = table(run.tables.pegging);
+  if (!t || t.rows < 2) return null;
+  const x = t.column('time_s');
+  const all = t.column('apertures');
+  const share = (column) => Float32Array.from(column, (v, k) => (all ? v / all[k] : v));
+  const series = [];
+  if (t.column('blocked')) series.push({ name: 'blocked', x, y: share(t.column('blocked')), ...TOTAL });
+  series.push(...classSeries(run, t).map((s) => ({ ...s, y: share(s.y) })).filter((s) => s.y.some((v) => v > 0)));
+  const title = 'Pegging';
+  return figure(title, all ? `Share of the ${count(all[t.rows - 1])} apertures with a sphere stuck in them, and by its class.` : null,
+    (host) => lineChart(host, { title, ...TIME, y: all ? 'blocked, %' : 'blocked', percent: Boolean(all), from: 0, series }));
+}
+
+function energyFigure(run) {
+  const t = table(run.tables.energy);
+  if (!t || t.rows < 2) return null;
+  const names = t.names.filter((name) => name !== 'time_s');
+  const columns = names.map((name) => t.column(name));
+  const [low, high] = range(columns);
+  const joules = names.every((name) => /_j$/i.test(name));
+  const [factor, unit] = joules ? scaleOf('J', Math.max(Math.abs(low), Math.abs(high))) : [1, ''];
+  const series = names.map((name, k) => ({
+    name: joules ? named(name).label : name.replaceAll('_', ' '), x: t.column('time_s'), y: times(columns[k], 1 / factor), ...look(k),
+  }));
+  const title = 'Energy';
+  return figure(title, 'Of the spheres above the screen.', (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
+}
+
+function bars(rows, total, unit) {
+  const most = Math.max(...rows.map(([, v]) => v));
+  return el('table', { class: 'bars' }, el('tbody', {}, rows.map(([name, value]) => el('tr', {},
+    el('th', { scope: 'row' }, name),
+    el('td', { class: 'bar' }, el('i', { style: `width:${((100 * value) / most).toFixed(1)}%` })),
+    el('td', { class: 'n' }, unit(value)), el('td', { class: 'n' }, percent(value / total, 2))))));
+}
+
+function splitFigure(run) {
+  const split = run.summary.time_split_s;
+  if (!split || typeof split !== 'object') return null;
+  const rows = Object.entries(split).filter(([, v]) => typeof v === 'number' && v >= 0).map(([k, v]) => [k.replaceAll('_', ' '), v]);
+  const known = rows.reduce((sum, [, v]) => sum + v, 0);
+  const wall = run.summary.wall_time_s;
+  if (!(known > 0)) return null;
+  if (typeof wall === 'number' && wall > 1.005 * known) rows.push(['everything else', wall - known]);
+  rows.sort((a, b) => b[1] - a[1]);
+  const total = rows.reduce((sum, [, v]) => sum + v, 0);
+  const { steps } = run.summary;
+  const speed = steps && wall ? ` ${num((1e6 * wall) / steps, 3)} µs per step.` : '';
+  return el('figure', {}, el('figcaption', {}, el('h3', {}, 'Where the time went'), el('p', {}, `${clock(total)} of computing in all.${speed}`)), bars(rows, total, clock));
+}
+
+function finalSection(run) {
+  const s = run.summary;
+  const of = (object, name) => (object && typeof object === 'object' ? object[name] : undefined);
+  const started = (c) => {
+    const listed = Array.isArray(s.classes) ? s.classes.find((k) => k && k.name === c.name) : null;
+    return listed && typeof listed.count === 'number' ? listed.count : of(of(s.derived, 'particles'), c.name);
+  };
+  const t = table(run.tables.retained);
+  const lastOf = (name) => (t.rows && t.column(name) ? t.column(name)[t.rows - 1] : NaN);
+  const rows = run.classes.map((c) => [c.name, c.diameter_mm, started(c), of(s.above, c.name), of(s.passed, c.name),
+    of(of(s.fraction_retained, 'by_class'), c.name) ?? lastOf(c.name), of(of(s.liquid_m3, 'above'), c.name)]);
+  const sum = (k) => (rows.every((row) => typeof row[k] === 'number') ? rows.reduce((a, row) => a + row[k], 0) : undefined);
+  const wet = rows.some((row) => row[6] > 0);
+  const line = ([name, d, n, above, passed, y, film]) => [name, d ? num(d) : '–', count(n), count(above), count(passed), percent(y, 4),
+    ...(wet ? [num(film * 1e9)] : [])];
+  const total = ['all', undefined, sum(2), sum(3), sum(4), of(s.fraction_retained, 'total') ?? lastOf('total'), sum(6)];
+  const parts = [grid(['class', 'diameter, mm', 'at the start', 'above', 'passed', 'mass retained', ...(wet ? ['liquid above, µl'] : [])], rows.map(line), line(total))];
+  const budget = budgetTable(s.budget, orderOf(run));
+  if (budget) parts.push(el('h3', {}, 'Physics budget'), budget);
+  return section('At the end', null, parts);
+}
+
+// A list of rows, of objects, or an object: whatever a summary has.
+function budgetTable(budget, order) {
+  const cell = (value, key) => told(value, key ? named(key).unit : '', order);
+  const plain = (value) => value && typeof value === 'object' && !Array.isArray(value);
+  if (Array.isArray(budget) && budget.length) {
+    if (budget.every(plain)) {
+      const keys = [...new Set(budget.flatMap((row) => Object.keys(row)))];
+      return grid(keys.map((key) => named(key).label), budget.map((row) => keys.map((key) => (key in row ? cell(row[key], key) : ''))));
+    }
+    const rows = budget.map((row) => (Array.isArray(row) ? row : [row]).map((v) => cell(v)));
+    return grid(rows[0].map(() => ''), rows);
+  }
+  if (plain(budget) && Object.keys(budget).length) {
+    return grid(['', ''], Object.entries(budget).map(([key, value]) => [named(key).label, cell(value, key)]));
+  }
+  return null;
+}
+
+function notesSection(notes) {
+  return notes.length ? section('About this page', null, el('ul', { class: 'plain' }, notes.map((text) => el('li', {}, text)))) : null;
+}
+
+function reportPage(data) {
+  const run = data.runs[0];
+  const retained = table(run.tables.retained);
+  const charts = retained.rows > 1
+    ? [retainedFigure(run), rateFigure(run), trompFigure(run), liquidFigure(run), ...bridgesFigures(run), peggingFigure(run), energyFigure(run), splitFigure(run)]
+    : [splitFigure(run)];
+  return [head(run, data.program), sceneSection(run), el('div', { class: 'charts' }, charts),
+    run.replay ? replaySection(run) : null, finalSection(run), notesSection(run.notes)];
+}
