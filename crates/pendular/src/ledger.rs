@@ -132,8 +132,9 @@ impl Ledger {
                 group.iter().for_each(|&k| moves[k].volume *= scale);
             }
             let given: f64 = group.iter().map(|&k| moves[k].volume).sum();
-            // Rounding may ask for a last bit more than there is: then the account is empty.
-            *self.entry(from) = (has - given).max(0.0);
+            // Rounding may ask for a last bit more or less than all: then the account is empty.
+            let left = has - given;
+            *self.entry(from) = if left > f64::EPSILON * has { left } else { 0.0 };
         }
         for step in moves.iter() {
             *self.entry(step.to) += step.volume;
@@ -179,6 +180,25 @@ mod tests {
         ledger.book(&mut [back, film(1, b, 1.0)]);
         assert_eq!(ledger.films(), [0.0, 1.0]);
         assert_eq!(ledger.volume(Account::Bridge(b)), 0.0);
+    }
+
+    /// V T + (V − V T) may be a last bit away from V.
+    #[test]
+    fn shares_of_all_there_is_leave_nothing() {
+        for k in 1..20_000 {
+            let volume = 1e-10 / f64::from(k);
+            let mut ledger = Ledger::new(vec![volume, 0.0], 0);
+            let bridge = ledger.open_bridge();
+            ledger.book(&mut [film(0, bridge, volume)]);
+            let first = volume * 0.317;
+            let back = |to, volume| Move {
+                from: Account::Bridge(bridge),
+                to: Account::Film(to),
+                volume,
+            };
+            ledger.book(&mut [back(0, first), back(1, volume - first)]);
+            assert_eq!(ledger.in_bridges(), 0.0);
+        }
     }
 
     proptest! {
