@@ -1,0 +1,185 @@
+//! The program as a user meets it: good runs, bad scenes, nothing lost.
+
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_batch_screen"))
+}
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    program().current_dir(folder).args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The demo, made small: 24 spheres on a sieve of 40 mm.
+fn small() -> String {
+    let demo = text(&program().args(["show", "demo"]).output().unwrap().stdout);
+    demo.replace("count = 267", "count = 16")
+        .replace("count = 99", "count = 6")
+        .replace("count = 34", "count = 2")
+        .replace("diameter_mm = 80 ", "diameter_mm = 40 ")
+        .replace("time = 2.0", "time = 0.08")
+        .replace("output_interval = 0.02", "output_interval = 0.01")
+        .replace("floor_height_mm = 40", "floor_height_mm = 12")
+}
+
+#[test]
+fn lists_shows_and_checks_every_built_in_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = run(folder.path(), &["list"]);
+    assert!(list.status.success());
+    let names: Vec<String> = text(&list.stdout)
+        .lines()
+        .map(|line| line.split_whitespace().next().unwrap().to_owned())
+        .collect();
+    assert_eq!(names.len(), 19);
+    for name in &names {
+        let shown = run(folder.path(), &["show", name]);
+        assert!(shown.status.success() && text(&shown.stdout).contains("[screen]"));
+    }
+    let check = run(folder.path(), &["check", "e18-02"]);
+    let said = text(&check.stdout);
+    assert!(check.status.success(), "{}", text(&check.stderr));
+    assert!(said.contains("limit") && said.contains("2813 spheres"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "a check writes nothing");
+}
+
+#[test]
+fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let done = run(folder.path(), &["run", "small.toml", "--out", "one", "--threads", "1"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("one/summary.json")).unwrap())
+            .unwrap();
+    assert!(summary["liquid_imbalance"].as_f64().unwrap().abs() < 1e-12);
+    assert_eq!(summary["escaped"], 0);
+    assert!(summary["bridges"]["formed"].as_u64().unwrap() > 10);
+    assert!(summary["largest_overlap"].as_f64().unwrap() < 0.05);
+    let mut liquid = csv::Reader::from_path(folder.path().join("one/liquid.csv")).unwrap();
+    let total = liquid.headers().unwrap().iter().position(|h| h == "total [m3]").unwrap();
+    let totals: Vec<f64> =
+        liquid.records().map(|row| row.unwrap()[total].parse().unwrap()).collect();
+    assert_eq!(totals.len(), 9);
+    assert!(totals.iter().all(|v| (v / totals[0] - 1.0).abs() < 1e-8));
+    let mut retained = csv::Reader::from_path(folder.path().join("one/retained.csv")).unwrap();
+    let first = retained.records().next().unwrap().unwrap();
+    assert_eq!(&first[0], "0.000000");
+    assert!((1..=4).all(|k| (first[k].parse::<f64>().unwrap() - 1.0).abs() < 1e-12));
+    // The same scene again, on two threads and from the kept bed, gives the same bytes.
+    let again = run(folder.path(), &["run", "small.toml", "--out", "two", "--threads", "2"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    for table in ["retained.csv", "liquid.csv", "passages.csv", "replay.csv", "energy.csv"] {
+        let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
+        assert!(read("one") == read("two"), "{table} differs");
+    }
+}
+
+#[test]
+fn a_dry_run_has_no_liquid_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let dry = small();
+    let dry = &dry[..dry.find("[liquid]").unwrap()];
+    fs::write(folder.path().join("dry.toml"), dry).unwrap();
+    let done = run(folder.path(), &["run", "dry.toml", "--time", "0.03"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(folder.path().join("out/dry/retained.csv").exists());
+    assert!(!folder.path().join("out/dry/liquid.csv").exists());
+}
+
+/// Bad scenes: what is changed in a good one, and what the error must say.
+const BAD: &[(&str, &str, &[&str])] = &[
+    ("aperture_mm = 8", "apperture_mm = 8", &["screen", "apperture_mm", "line"]),
+    ("aperture_mm = 8", "aperture_mm = -8", &["screen.aperture_mm", "-8", "above 0"]),
+    ("aperture_mm = 8", "aperture_mm = \"8\"", &["screen.aperture_mm", "line"]),
+    ("aperture_mm = 8", "aperture_mm = nan", &["screen.aperture_mm", "NaN"]),
+    ("aperture_mm = 8", "aperture_mm = 8 8", &["line"]),
+    ("wire_diameter_mm = 2", "wire_diameter_mm = 0", &["screen.wire_diameter_mm"]),
+    ("diameter_mm = 5\n", "diameter_mm = 0\n", &["classes[0].diameter_mm"]),
+    ("density = 1358", "density = inf", &["classes[0].density", "inf"]),
+    ("count = 16", "mass_g = -1", &["classes[0].mass_g"]),
+    ("count = 16", "", &["classes[0].mass_g", "count"]),
+    ("count = 16", "count = 16\nmass_g = 1", &["classes[0]", "one of the two"]),
+    ("name = \"7 mm\"", "name = \"5 mm\"", &["classes[1].name"]),
+    ("material = \"POM\"", "material = \"PON\"", &["classes[0].material", "PON", "steel"]),
+    ("capillary = \"lambert\"", "capillary = \"lambda\"", &["liquid.capillary", "lambert"]),
+    ("normal_drag = \"pitois\"", "normal_drag = \"x\"", &["liquid.normal_drag", "pitois"]),
+    ("rupture = \"willett-unequal\"", "rupture = \"w\"", &["liquid.rupture", "mikami"]),
+    ("transfer = \"parabola\"", "transfer = \"thirds\"", &["transfer", "parabola"]),
+    ("contact_angle_deg = 40", "contact_angle_deg = 180", &["POM", "contact_angle_deg", "179"]),
+    ("restitution = 0.8038", "restitution = 1.5", &["contacts[0].restitution", "1"]),
+    ("friction = 0.3725", "friction = -1", &["contacts[0].friction"]),
+    ("moisture_percent = 5", "moisture_percent = -5", &["liquid.moisture_percent"]),
+    ("surface_tension = 0.07275", "surface_tension = 0", &["liquid.surface_tension"]),
+    ("stiffness = 1e5", "stiffness = 0", &["contact.stiffness"]),
+    ("solid_fraction = 0.3", "solid_fraction = 0.7", &["packing.solid_fraction", "0.35"]),
+    ("time_step = 5e-6", "time_step = 1e-3", &["time step", "contact springs and dashpots"]),
+    ("height_mm = 120", "height_mm = 13", &["screen.height_mm"]),
+    ("title = ", "tittle = ", &["tittle", "line 2"]),
+    ("[motion]", "[motions]", &["motions"]),
+];
+
+#[test]
+fn bad_scenes_say_where_and_what_is_allowed_and_leave_results_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let kept = folder.path().join("out/bad/retained.csv");
+    fs::create_dir_all(kept.parent().unwrap()).unwrap();
+    fs::write(&kept, "earlier results").unwrap();
+    let good = small();
+    for (from, to, wanted) in BAD {
+        assert!(good.contains(from), "the scene has no `{from}`");
+        fs::write(folder.path().join("bad.toml"), good.replacen(from, to, 1)).unwrap();
+        let done = run(folder.path(), &["run", "bad.toml"]);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{to}: {said}");
+        for word in *wanted {
+            assert!(said.contains(word), "{to}: `{word}` is not in: {said}");
+        }
+        assert_eq!(fs::read_to_string(&kept).unwrap(), "earlier results", "{to}");
+    }
+}
+
+#[test]
+fn missing_and_broken_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let unknown = run(folder.path(), &["run", "nothing"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(text(&unknown.stderr).contains("e18-18"));
+    let good = small();
+    let start = good.find("[packing]").unwrap();
+    let end = good.find("[screen]").unwrap();
+    let with = |packing: &str, rest: &str| format!("{}{packing}{}{rest}", &good[..start], &good[end..]);
+    let file = "[packing]\nfrom = \"file\"\npath = \"bed.csv\"\n\n";
+    fs::write(folder.path().join("s.toml"), with(file, "")).unwrap();
+    let missing = run(folder.path(), &["check", "s.toml"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(text(&missing.stderr).contains("bed.csv"));
+    for (bed, wanted) in [
+        ("id,x,y,z,radius\n", "the header is"),
+        ("id,x,y,z,radius,density\n1,0,0,a,0.0025,1358\n", "line 2"),
+        ("id,x,y,z,radius,density\n1,0,0,0.05,0.003,1358\n", "no class has radius"),
+        ("id,x,y,z,radius,density\n1,0,0,nan,0.0025,1358\n", "z = `nan`"),
+    ] {
+        fs::write(folder.path().join("bed.csv"), bed).unwrap();
+        let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
+        assert!(said.contains(wanted) && said.contains("bed.csv"), "{said}");
+    }
+    let overlapping = "id,x,y,z,radius,density\n1,0,0,0.05,0.0025,1358\n2,0,0,0.054,0.0025,1358\n";
+    fs::write(folder.path().join("bed.csv"), overlapping).unwrap();
+    let said = text(&run(folder.path(), &["run", "s.toml"]).stderr);
+    assert!(said.contains("overlaps"), "{said}");
+    fs::write(folder.path().join("broken.stl"), "solid x\nfacet nonsense").unwrap();
+    let part = "\n[[parts]]\nname = \"frame\"\nstl = \"broken.stl\"\nmaterial = \"steel\"\n";
+    let random = "[packing]\nfrom = \"random\"\nsolid_fraction = 0.2\nclearance_mm = 2\n\n";
+    fs::write(folder.path().join("s.toml"), with(random, part)).unwrap();
+    let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
+    assert!(said.contains("broken.stl"), "{said}");
+}
