@@ -5,6 +5,7 @@
 mod curves;
 mod laws;
 mod layering;
+mod liquid;
 mod pull_off;
 mod rig;
 mod wet_pair;

@@ -191,11 +191,8 @@ mod tests {
             let bridge = ledger.open_bridge();
             ledger.book(&mut [film(0, bridge, volume)]);
             let first = volume * 0.317;
-            let back = |to, volume| Move {
-                from: Account::Bridge(bridge),
-                to: Account::Film(to),
-                volume,
-            };
+            let back =
+                |to, volume| Move { from: Account::Bridge(bridge), to: Account::Film(to), volume };
             ledger.book(&mut [back(0, first), back(1, volume - first)]);
             assert_eq!(ledger.in_bridges(), 0.0);
         }
