@@ -1,16 +1,18 @@
 use std::collections::HashMap;
 
 use pendular_pair::{Bridge, Mate};
-use pendular_transfer::split::TransferTable;
+use pendular_transfer::split::{TransferTable, exact};
 use pendular_transfer::{Split, TransferError};
 
 /// How the transfer ratio of a rupture is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SplitMethod {
+    /// At the neck of the exact bridge, from the table of `pendular-capillary`.
+    #[default]
+    Exact,
     /// The parabolic profile of Pepin (2000) and Shi & McCarthy (2008), from a table over the
     /// volume as Elskamp & Kruggel-Emden (2018) use it. Outside the table the nearer end holds,
     /// and is counted as extrapolated.
-    #[default]
     Parabola,
     /// Half to each body.
     Half,
@@ -32,6 +34,7 @@ impl Splits {
     pub(crate) fn of(&mut self, bridge: &Bridge) -> Result<(Split, bool), TransferError> {
         match self.method {
             SplitMethod::Half => Ok((Split::HALF, false)),
+            SplitMethod::Exact => Ok((exact(bridge)?, false)),
             SplitMethod::Parabola => {
                 let lookup = self.table(bridge)?.clamped(bridge.volume())?;
                 Ok((lookup.split, lookup.extrapolated))

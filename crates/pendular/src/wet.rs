@@ -10,6 +10,8 @@ use pendular_transfer::{DynamicCurve, RuptureLaw, Split, TransferError, film};
 use crate::split::Splits;
 use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
 
+/// Smallest V* of a bridge where no other is asked for.
+const SMALLEST_V_STAR: f64 = 1e-9;
 /// No bridge.
 const DRY: u32 = u32::MAX;
 
@@ -143,6 +145,7 @@ pub struct Wet<C, N, S> {
     with_walls: PairLaws<C, N, S>,
     splits: Splits,
     range: Range,
+    smallest_v_star: f64,
     bodies: Bodies,
     ledger: Ledger,
     live: Vec<Option<LiveBridge>>,
@@ -192,12 +195,23 @@ where
             with_walls,
             splits: Splits::new(split),
             range,
+            smallest_v_star: SMALLEST_V_STAR,
             bodies,
         };
         for id in 0..particles as u32 {
             wet.measure(Account::Film(id))?;
         }
         Ok(wet)
+    }
+
+    /// The same with another smallest V* = V/R³ of a bridge; 1e-9 otherwise. Films that would give
+    /// less form none: such a bridge would break within a thousandth of the radius.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] unless it lies in [0, 1e-3].
+    pub fn with_smallest_v_star(self, smallest_v_star: f64) -> Result<Self, OutOfRange> {
+        OutOfRange::within("smallest V/R^3", smallest_v_star, (0.0, 1e-3))?;
+        Ok(Self { smallest_v_star, ..self })
     }
 
     /// The account of all liquid.
@@ -310,6 +324,17 @@ where
                 }
             }
         }
+    }
+
+    /// Smallest volume of a bridge, m³.
+    fn smallest(&self, encounter: &Encounter) -> f64 {
+        let radius = self.radius(encounter.first);
+        let reduced = match encounter.second {
+            Partner::Particle(id) => radius * self.radius(id) / (radius + self.radius(id)),
+            Partner::Wall(_) => radius,
+        };
+        // The volume is positive also where the ratio's smallest value is set to 0.
+        (self.smallest_v_star * (2.0 * reduced).powi(3)).max(f64::MIN_POSITIVE)
     }
 
     fn contact_angles(&self, encounter: &Encounter) -> [f64; 2] {
@@ -512,8 +537,8 @@ where
                 moves.extend(self.rupture(&encounter, visit.column.bridge));
             } else if !visit.ending {
                 let bridge = self.ledger.open_bridge();
+                forming.push((k, bridge, moves.len()));
                 moves.extend(self.claims(&encounter, bridge)?);
-                forming.push((k, bridge));
             }
         }
         self.ledger.book(&mut moves);
@@ -523,11 +548,15 @@ where
             self.ledger.close_bridge(bridge);
             self.counts.ruptured += 1;
         }
-        for (k, bridge) in forming {
-            if self.ledger.volume(Account::Bridge(bridge)) > 0.0 {
+        for (k, bridge, given) in forming {
+            let volume = self.ledger.volume(Account::Bridge(bridge));
+            if volume >= self.smallest(&visits[k].pair.encounter) {
                 visits[k].column = self.fold(&visits[k].pair, bridge)?;
                 self.counts.formed += 1;
             } else {
+                let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
+                let [first, second] = [back(&moves[given]), back(&moves[given + 1])];
+                self.ledger.book(&mut [first, second]);
                 self.ledger.close_bridge(bridge);
             }
         }

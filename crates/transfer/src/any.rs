@@ -3,7 +3,7 @@ use std::str::FromStr;
 
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
-use crate::rupture::{Lian1993, Mikami1998, Willett2000, WillettUnequal2000};
+use crate::rupture::{Lian1993, Mikami1998, Tabulated, Willett2000, WillettUnequal2000};
 use crate::{RuptureLaw, TransferError};
 
 /// A rupture law chosen by name at run time.
@@ -24,14 +24,18 @@ pub enum AnyRupture {
     WillettUnequal,
     /// [`Mikami1998`], two spheres and sphere and wall.
     Mikami,
+    /// [`Tabulated`], exact.
+    Tabulated,
 }
 
 impl AnyRupture {
     /// Every law there is.
-    pub const ALL: [Self; 4] = [Self::Lian, Self::Willett, Self::WillettUnequal, Self::Mikami];
+    pub const ALL: [Self; 5] =
+        [Self::Lian, Self::Willett, Self::WillettUnequal, Self::Mikami, Self::Tabulated];
 
     /// The names of [`AnyRupture::ALL`], in the same order.
-    pub const NAMES: [&'static str; 4] = ["lian", "willett", "willett-unequal", "mikami"];
+    pub const NAMES: [&'static str; 5] =
+        ["lian", "willett", "willett-unequal", "mikami", "tabulated"];
 
     /// The law's name in scene files and on the command line.
     #[must_use]
@@ -41,6 +45,7 @@ impl AnyRupture {
             Self::Willett => "willett",
             Self::WillettUnequal => "willett-unequal",
             Self::Mikami => "mikami",
+            Self::Tabulated => "tabulated",
         }
     }
 
@@ -52,6 +57,7 @@ impl AnyRupture {
             Self::Willett => "Willett et al. 2000, equal spheres",
             Self::WillettUnequal => "Willett et al. 2000, unequal spheres",
             Self::Mikami => "Mikami, Kamiya & Horio 1998",
+            Self::Tabulated => "Young-Laplace, tabulated",
         }
     }
 }
@@ -63,6 +69,7 @@ impl RuptureLaw for AnyRupture {
             Self::Willett => Willett2000.validity(),
             Self::WillettUnequal => WillettUnequal2000.validity(),
             Self::Mikami => Mikami1998.validity(),
+            Self::Tabulated => Tabulated.validity(),
         }
     }
 
@@ -72,6 +79,7 @@ impl RuptureLaw for AnyRupture {
             Self::Willett => Willett2000.distance(bridge, range),
             Self::WillettUnequal => WillettUnequal2000.distance(bridge, range),
             Self::Mikami => Mikami1998.distance(bridge, range),
+            Self::Tabulated => Tabulated.distance(bridge, range),
         }
     }
 }

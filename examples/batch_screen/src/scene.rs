@@ -236,6 +236,7 @@ pub(crate) enum DynamicRupture {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Transfer {
+    Exact,
     Parabola,
     Half,
 }

@@ -2,11 +2,13 @@
 
 mod lian_1993;
 mod mikami_1998;
+mod tabulated;
 mod willett_2000;
 mod willett_unequal_2000;
 
 pub use lian_1993::Lian1993;
 pub use mikami_1998::Mikami1998;
+pub use tabulated::Tabulated;
 pub use willett_2000::Willett2000;
 pub use willett_unequal_2000::WillettUnequal2000;
 

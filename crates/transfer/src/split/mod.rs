@@ -1,11 +1,13 @@
 //! Who gets the liquid of a ruptured bridge.
 
+mod exact;
 mod pair;
 pub mod parabola;
 mod profile;
 mod shipped;
 mod table;
 
+pub use exact::exact;
 pub use pair::{Kind, Pair};
 pub use shipped::{NamedPair, pairs as shipped_pairs, read_pairs};
 pub use table::{Lookup, TransferTable};

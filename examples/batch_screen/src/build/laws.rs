@@ -132,6 +132,7 @@ pub(crate) fn wet(
     };
     let films = derived.class.iter().map(film_of).collect();
     let split = match spec.transfer {
+        Transfer::Exact => SplitMethod::Exact,
         Transfer::Parabola => SplitMethod::Parabola,
         Transfer::Half => SplitMethod::Half,
     };

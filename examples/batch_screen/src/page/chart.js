@@ -60,17 +60,19 @@ function range(columns) {
   return low > high ? [0, 1] : [low, high];
 }
 
+const shorten = (text) => (text.length > 24 ? `${text.slice(0, 23)}…` : text);
+
 // Room, scales and axes of a chart of some width; shared by lines and areas.
 function frame(host, spec, x, y) {
   const width = Math.max(260, Math.round(host.clientWidth || 600));
   const height = Math.round(Math.max(210, Math.min(spec.tall || 330, width * 0.56)));
   const wide = width >= 520;
-  const letters = Math.max(0, ...(spec.labels || []).map((text) => Math.min(text.length, 18)));
+  const words = Math.max(0, ...(spec.labels || []).map((text) => widthOf(shorten(text))));
   const yTicks = spec.log ? powers(...y) : ticks(...y, height / 52);
   const text = (v) => num(spec.percent ? 100 * v : v, 6);
   const box = {
     left: 14 + 7 * Math.max(...yTicks.map((v) => text(v).length), 2),
-    right: wide && letters ? 18 + 7 * letters : 14,
+    right: wide && words ? Math.ceil(16 + words) : 14,
     top: 30, bottom: 40, width, height, wide,
   };
   const inner = [width - box.left - box.right, height - box.top - box.bottom];
@@ -120,10 +122,9 @@ function endLabels(root, box, labels) {
   }
   const x = box.width - box.right;
   for (const { y, at, text, color } of labels) {
-    const short = text.length > 18 ? `${text.slice(0, 17)}…` : text;
     root.append(
       svg('path', { d: `M${x + 2} ${y}L${x + 9} ${at}`, class: 'lead' }),
-      svg('text', { x: x + 12, y: at + 4, class: 'end', style: `fill:${color}` }, short),
+      svg('text', { x: x + 12, y: at + 4, class: 'end', style: `fill:${color}` }, shorten(text)),
     );
   }
 }

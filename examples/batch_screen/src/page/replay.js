@@ -134,7 +134,8 @@ class View {
     }
     const names = ['x', 'y', 'z'];
     context.fillText(`${names[this.across]}, mm`, this.place(this.across, right), floor + 27 * s);
-    context.fillText(names[this.up], start - 5 * s, this.place(this.up, high) + 9 * s);
+    context.textAlign = 'left';
+    context.fillText(`${names[this.up]}, mm`, start + 6 * s, this.place(this.up, high) + 14 * s);
     if (this.up === 2 && low < 0 && high > 0) {
       context.setLineDash([5 * s, 4 * s]);
       context.strokeStyle = ink;

@@ -23,7 +23,7 @@ function head(run, program) {
   const bridges = s.bridges || {};
   if (typeof bridges.formed === 'number') tiles.push(tile(count(bridges.formed), 'bridges formed'));
   if (s.derived && typeof s.derived.liquid_m3 === 'number' && s.derived.liquid_m3 > 0) tiles.push(tile(told(s.derived.liquid_m3, 'm³'), 'liquid'));
-  if (typeof s.liquid_imbalance === 'number') tiles.push(tile(num(s.liquid_imbalance, 2), 'liquid imbalance, relative'));
+  if (typeof s.liquid_imbalance === 'number') tiles.push(tile(num(s.liquid_imbalance, 2), 'liquid imbalance'));
   if (typeof s.wall_time_s === 'number') tiles.push(tile(clock(s.wall_time_s), 'computing time'));
   return el('header', {}, el('p', { class: 'over' }, [program, run.name].join(' · ')),
     el('h1', {}, s.title || run.name), el('p', { class: 'lead' }, sentence), el('div', { class: 'tiles' }, tiles));
@@ -82,7 +82,10 @@ function rateFigure(run) {
   const end = at[at.length - 1];
   const start = at[0];
   if (!(end > start)) return null;
-  const [zero, step] = ticks(0, end - start, 30);
+  const above = retained.column('particles_above');
+  // About a dozen passages to a bin, so that the steps are not mere chance.
+  const wanted = Math.max(6, Math.min(40, (above[0] - above[above.length - 1]) / 12));
+  const [zero, step] = ticks(0, end - start, wanted);
   const width = step - zero;
   const bins = Math.max(1, Math.ceil((end - start) / width - 1e-6));
   const edges = Float32Array.from({ length: bins + 1 }, (_, k) => Math.min(end, start + k * width));
@@ -104,7 +107,6 @@ function rateFigure(run) {
       if (y.some((v) => v > 0)) series.push({ name: c.name, x: edges, y, step: true, ...look(k) });
     });
   } else {
-    const above = retained.column('particles_above');
     const y = rate((put) => above.forEach((n, row) => { if (row) put(at[row] - 1e-4 * width, above[row - 1] - n); }));
     series.push({ name: 'all classes', x: edges, y, step: true, ...TOTAL });
   }
@@ -271,6 +273,8 @@ function budgetTable(budget, order) {
   if (Array.isArray(budget) && budget.length) {
     if (budget.every(plain)) {
       const keys = [...new Set(budget.flatMap((row) => Object.keys(row)))];
+      const words = (key) => (budget.some((row) => typeof row[key] === 'string') ? 0 : 1);
+      keys.sort((a, b) => words(a) - words(b));
       return grid(keys.map((key) => named(key).label), budget.map((row) => keys.map((key) => (key in row ? cell(row[key], key) : ''))));
     }
     const rows = budget.map((row) => (Array.isArray(row) ? row : [row]).map((v) => cell(v)));

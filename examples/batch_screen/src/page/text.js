@@ -18,10 +18,18 @@ function dress(node, attributes, children) {
     if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
     else node.setAttribute(name, value === true ? '' : value);
   }
-  for (const child of children.flat()) {
+  for (const child of children.flat(Infinity)) {
     if (child !== null && child !== undefined && child !== false) node.append(child);
   }
   return node;
+}
+
+// Width of a text in pixels, in the font of chart labels.
+const ruler = document.createElement('canvas').getContext('2d');
+
+function widthOf(text) {
+  ruler.font = `600 12.5px ${getComputedStyle(document.body).fontFamily}`;
+  return ruler.measureText(text).width;
 }
 
 // Base64 of little-endian bytes.
