@@ -4,9 +4,11 @@
 const DASHES = ['', '7 4', '2 3', '9 3 2 3', '4 2', '12 4', '1 4', '6 2 1 2 1 2'];
 const MARKS = ['circle', 'square', 'triangle', 'diamond', 'cross', 'plus', 'down', 'ring'];
 
-// How the k-th of several series looks.
+// How the k-th of several series looks. From the ninth on colours come again, with other dashes
+// and marks.
 function look(k) {
-  return { color: `var(--c${k % 8})`, dash: DASHES[k % 8], mark: MARKS[k % 8] };
+  const round = Math.floor(k / 8);
+  return { color: `var(--c${k % 8})`, dash: DASHES[(k + 3 * round) % 8], mark: MARKS[(k + round) % 8] };
 }
 
 const TOTAL = { color: 'var(--ink)', dash: '', mark: '', width: 2.6 };
@@ -64,9 +66,9 @@ const shorten = (text) => (text.length > 24 ? `${text.slice(0, 23)}…` : text);
 
 // Room, scales and axes of a chart of some width; shared by lines and areas.
 function frame(host, spec, x, y) {
-  const width = Math.max(260, Math.round(host.clientWidth || 600));
-  const height = Math.round(Math.max(210, Math.min(spec.tall || 330, width * 0.56)));
+  const width = spec.square || Math.max(260, Math.round(host.clientWidth || 600));
   const wide = width >= 520;
+  const height = spec.square || Math.round(Math.max(230, Math.min(spec.tall || 330, width * (wide ? 0.56 : 0.72))));
   const words = Math.max(0, ...(spec.labels || []).map((text) => widthOf(shorten(text))));
   const yTicks = spec.log ? powers(...y) : ticks(...y, height / 52);
   const text = (v) => num(spec.percent ? 100 * v : v, 6);
@@ -81,7 +83,7 @@ function frame(host, spec, x, y) {
   const sy = (v) => height - box.bottom - ((lift(v) - lift(y[0])) / (lift(y[1]) - lift(y[0]) || 1)) * inner[1];
   const root = svg('svg', {
     viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', tabindex: 0,
-    'aria-label': `${spec.title}: ${spec.y} against ${spec.x}. Arrow keys read values.`,
+    'aria-label': `${spec.title}: ${spec.y} against ${spec.x}.${spec.square ? '' : ' Arrow keys read values.'}`,
   });
   for (const v of yTicks) {
     const at = Math.round(sy(v)) + 0.5;

@@ -221,6 +221,36 @@ function energyFigure(run) {
   return figure(title, 'Of the spheres above the screen.', (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
 }
 
+// Where spheres passed, seen from above.
+function placesFigure(run) {
+  const t = table(run.tables.passages);
+  if (!t || t.rows < 1) return null;
+  const [x, y, of] = ['x_m', 'y_m', 'class'].map((name) => t.column(name));
+  if (!x || !y || !of) return null;
+  const assumed = run.summary.assumptions || {};
+  const reach = Math.max(...range([x, y]).map(Math.abs), 1e-6);
+  const screen = 0.5e-3 * assumed.screen_diameter_mm >= reach ? 0.5e-3 * assumed.screen_diameter_mm : 0;
+  const edge = 1.08 * Math.max(reach, screen);
+  const draw = (host) => {
+    const size = Math.min(host.clientWidth, 380);
+    const axis = { x: 'x, mm', y: 'y, mm', title: 'Where spheres passed' };
+    const drawn = frame(host, { ...axis, square: size }, [-1e3 * edge, 1e3 * edge], [-1e3 * edge, 1e3 * edge]);
+    const { root, sx, sy } = drawn;
+    if (screen) {
+      root.append(svg('ellipse', { cx: sx(0), cy: sy(0), rx: sx(1e3 * screen) - sx(0), ry: sy(0) - sy(1e3 * screen), class: 'outline' }));
+    }
+    const step = Math.ceil(t.rows / 4000);
+    for (let row = 0; row < t.rows; row += step) {
+      const k = Math.max(0, of[row]);
+      const { color, mark: kind } = look(k);
+      root.append(mark(kind, +sx(1e3 * x[row]).toFixed(1), +sy(1e3 * y[row]).toFixed(1), color, 2.4));
+    }
+    const seen = new Set(of);
+    host.replaceChildren(root, legend(run.classes.map((c, k) => ({ name: c.name, ...look(k), dash: '0 99', k })).filter((s) => seen.has(s.k))));
+  };
+  return figure('Where spheres passed', `Seen from above${screen ? '; the circle is the frame' : ''}.`, draw);
+}
+
 function bars(rows, total, unit) {
   const most = Math.max(...rows.map(([, v]) => v));
   return el('table', { class: 'bars' }, el('tbody', {}, rows.map(([name, value]) => el('tr', {},
@@ -294,7 +324,7 @@ function reportPage(data) {
   const run = data.runs[0];
   const retained = table(run.tables.retained);
   const charts = retained.rows > 1
-    ? [retainedFigure(run), rateFigure(run), trompFigure(run), liquidFigure(run), ...bridgesFigures(run), peggingFigure(run), energyFigure(run), splitFigure(run)]
+    ? [retainedFigure(run), rateFigure(run), trompFigure(run), liquidFigure(run), ...bridgesFigures(run), peggingFigure(run), energyFigure(run), placesFigure(run), splitFigure(run)]
     : [splitFigure(run)];
   return [head(run, data.program), sceneSection(run), el('div', { class: 'charts' }, charts),
     run.replay ? replaySection(run) : null, finalSection(run), notesSection(run.notes)];
