@@ -110,10 +110,10 @@ const BAD: &[(&str, &str, &[&str])] = &[
     ("count = 16", "count = 16\nmass_g = 1", &["classes[0]", "one of the two"]),
     ("name = \"7 mm\"", "name = \"5 mm\"", &["classes[1].name"]),
     ("material = \"POM\"", "material = \"PON\"", &["classes[0].material", "PON", "steel"]),
-    ("capillary = \"lambert\"", "capillary = \"lambda\"", &["liquid.capillary", "lambert"]),
+    ("capillary = \"tabulated\"", "capillary = \"lambda\"", &["liquid.capillary", "lambert"]),
     ("normal_drag = \"pitois\"", "normal_drag = \"x\"", &["liquid.normal_drag", "pitois"]),
-    ("rupture = \"willett-unequal\"", "rupture = \"w\"", &["liquid.rupture", "mikami"]),
-    ("transfer = \"parabola\"", "transfer = \"thirds\"", &["transfer", "parabola"]),
+    ("rupture = \"tabulated\"", "rupture = \"w\"", &["liquid.rupture", "mikami"]),
+    ("transfer = \"exact\"", "transfer = \"thirds\"", &["transfer", "parabola"]),
     ("contact_angle_deg = 40", "contact_angle_deg = 180", &["POM", "contact_angle_deg", "179"]),
     ("restitution = 0.8038", "restitution = 1.5", &["contacts[0].restitution", "1"]),
     ("friction = 0.3725", "friction = -1", &["contacts[0].friction"]),
@@ -156,7 +156,8 @@ fn missing_and_broken_files() {
     let good = small();
     let start = good.find("[packing]").unwrap();
     let end = good.find("[screen]").unwrap();
-    let with = |packing: &str, rest: &str| format!("{}{packing}{}{rest}", &good[..start], &good[end..]);
+    let with =
+        |packing: &str, rest: &str| format!("{}{packing}{}{rest}", &good[..start], &good[end..]);
     let file = "[packing]\nfrom = \"file\"\npath = \"bed.csv\"\n\n";
     fs::write(folder.path().join("s.toml"), with(file, "")).unwrap();
     let missing = run(folder.path(), &["check", "s.toml"]);
