@@ -6,6 +6,7 @@ mod curves;
 mod laws;
 mod layering;
 mod liquid;
+mod mesh_walls;
 mod pull_off;
 mod rig;
 mod wet_pair;
