@@ -1,5 +1,7 @@
 //! The ParaView series, read back by a reader of its own.
 
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
 #[path = "../src/vtk/mod.rs"]
 mod vtk;
 

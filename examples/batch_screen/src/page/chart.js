@@ -167,7 +167,8 @@ function readOut(host, drawn, xs, rows) {
     line.setAttribute('visibility', 'visible');
     tip.replaceChildren(...rows(index));
     tip.hidden = false;
-    const left = at + 14 + tip.offsetWidth > box.width ? at - tip.offsetWidth - 14 : at + 14;
+    const late = at > 0.6 * box.width || at + 14 + tip.offsetWidth > box.width;
+    const left = late ? at - tip.offsetWidth - 14 : at + 14;
     tip.style.left = `${Math.max(0, left)}px`;
     tip.style.top = `${box.top}px`;
   };

@@ -64,6 +64,36 @@ function byDepth(column, backwards) {
   return order;
 }
 
+// Of discs in order from the nearest, those not wholly behind nearer ones, on a grid of small cells.
+class Cover {
+  constructor(width, height, cell) {
+    this.cell = cell;
+    this.columns = Math.ceil(width / cell) + 1;
+    this.rows = Math.ceil(height / cell) + 1;
+    this.taken = new Uint8Array(this.columns * this.rows);
+  }
+
+  // Whether some of a disc can be seen; what it hides is taken from then on.
+  seen(x, y, r) {
+    const { cell, columns, taken } = this;
+    const [left, top] = [Math.max(0, Math.floor((x - r) / cell)), Math.max(0, Math.floor((y - r) / cell))];
+    const right = Math.min(columns - 1, Math.floor((x + r) / cell));
+    const bottom = Math.min(this.rows - 1, Math.floor((y + r) / cell));
+    let free = false;
+    for (let j = top; j <= bottom; j += 1) {
+      const dy = Math.max(Math.abs(j * cell - y), Math.abs((j + 1) * cell - y));
+      for (let i = left; i <= right; i += 1) {
+        const at = j * columns + i;
+        if (taken[at]) continue;
+        free = true;
+        const dx = Math.max(Math.abs(i * cell - x), Math.abs((i + 1) * cell - x));
+        if (dx * dx + dy * dy <= r * r) taken[at] = 1;
+      }
+    }
+    return free;
+  }
+}
+
 class View {
   // across, up, deep: axes as indices of x, y, z; `toward` is true if greater depth is nearer.
   constructor(replay, across, up, deep, toward) {
@@ -82,7 +112,7 @@ class View {
     const [low, high] = this.span(this.up);
     this.scale = scale * sharpness;
     this.sharp = sharpness;
-    const width = Math.ceil((right - left) * scale) + 44;
+    const width = Math.ceil((right - left) * scale) + 54;
     const height = Math.ceil((high - low) * scale) + 34;
     this.canvas.width = width * sharpness;
     this.canvas.height = height * sharpness;
@@ -103,11 +133,19 @@ class View {
     });
     const ends = [];
     frame.counts.reduce((sum, n) => { ends.push(sum + n); return sum + n; }, 0);
-    for (const k of byDepth(columns[this.deep], !this.toward)) {
+    const radii = this.replay.radii.map((r) => r * this.scale);
+    const cover = new Cover(this.canvas.width, this.canvas.height, Math.max(2, 0.3 * Math.min(...radii)));
+    const [xs, ys] = [columns[this.across], columns[this.up]];
+    const shown = [];
+    for (const k of byDepth(columns[this.deep], this.toward)) {
       let of = 0;
       while (k >= ends[of]) of += 1;
+      const [x, y] = [px(xs[k]), py(ys[k])];
+      if (cover.seen(x, y, radii[of])) shown.push([k, of, x, y]);
+    }
+    for (const [k, of, x, y] of shown.reverse()) {
       const picture = sprites[of][shades ? Math.min(SHADES - 1, Math.floor((frame.film[k] * SHADES) / 256)) : 0];
-      context.drawImage(picture, px(columns[this.across][k]) - picture.width / 2, py(columns[this.up][k]) - picture.height / 2);
+      context.drawImage(picture, x - picture.width / 2, y - picture.height / 2);
     }
   }
 
@@ -152,7 +190,7 @@ function replaySection(run) {
   const packed = run.replay;
   const frames = unpack(packed);
   const radii = run.classes.map((c) => (c.diameter_mm ? 0.5e-3 * c.diameter_mm : 1.5e-3));
-  const replay = { bounds: packed.bounds, margin: Math.max(...radii) };
+  const replay = { bounds: packed.bounds, margin: Math.max(...radii), radii };
   const views = [new View(replay, 0, 1, 2, true), new View(replay, 0, 2, 1, false)];
   const state = { index: 0, by: 'film', playing: 0, sprites: null };
   const filmed = frames.some((f) => f.film.some((v) => v > 0));
@@ -231,7 +269,7 @@ function replaySection(run) {
     if (!both) return;
     const column = both >= 700 ? (both - 28) / 2 : both;
     const span = (axis) => packed.bounds[axis][1] - packed.bounds[axis][0] + 2 * replay.margin;
-    const scale = Math.min((column - 46) / span(0), 560 / Math.max(span(1), span(2)));
+    const scale = Math.min((column - 56) / span(0), 560 / Math.max(span(1), span(2)));
     const sharp = Math.min(2, window.devicePixelRatio || 1);
     for (const view of views) view.resize(scale, sharp);
     state.sprites = null;

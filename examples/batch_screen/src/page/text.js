@@ -142,7 +142,7 @@ function grid(head, rows, total) {
   const line = (row) => el('tr', {}, el('th', { scope: 'row' }, row[0]),
     row.slice(1).map((text) => el('td', { class: 'n' }, text)));
   return el('div', { class: 'scroll', tabindex: 0 }, el('table', {},
-    el('thead', {}, el('tr', {}, head.map(cell('th')))),
+    el('thead', {}, el('tr', {}, head.map((text) => text.replace(', ', ',\u00a0')).map(cell('th')))),
     el('tbody', {}, rows.map(line)),
     total ? el('tfoot', {}, line(total)) : null));
 }
