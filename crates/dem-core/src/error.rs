@@ -97,6 +97,15 @@ pub enum SimulationError {
         /// The term's own error.
         source: TermError,
     },
+    /// A snapshot does not fit together.
+    #[error("the snapshot holds {what}")]
+    Snapshot {
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// The snapshot's particles are not usable.
+    #[error(transparent)]
+    Particle(#[from] ParticleError),
     /// The threads could not be started.
     #[error("could not start {threads} threads: {reason}")]
     Threads {

@@ -149,22 +149,22 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 
 /// All live columns, by the ids of their bodies, while the particles change their order.
 pub(super) struct Carried<C> {
-    pairs: Vec<([u32; 2], C)>,
-    walls: Vec<CarriedWall<C>>,
+    pub(super) pairs: Vec<([u32; 2], C)>,
+    pub(super) walls: Vec<CarriedWall<C>>,
 }
 
 /// A wall pair on its way: the particle's id, the part, memories, candidates.
-type CarriedWall<C> = (u32, u32, Vec<Memory<C>>, Vec<u32>);
+pub(super) type CarriedWall<C> = (u32, u32, Vec<Memory<C>>, Vec<u32>);
 
 impl<C: Copy + Default + Send + Sync> Carried<C> {
     pub(super) fn collect<T: PairTerm<Column = C>, B>(
-        simulation: &mut Simulation<T, B>,
+        simulation: &Simulation<T, B>,
         leaving: &[u32],
     ) -> Self {
         let (id, term) = (&simulation.particles.id, &simulation.term);
         let stays = |slot: u32| leaving.binary_search(&slot).is_err();
         let (mut pairs, mut walls) = (Vec::new(), Vec::new());
-        for chunk in &mut simulation.chunks {
+        for chunk in &simulation.chunks {
             let (inside, across) = (&chunk.inside, &chunk.across);
             let inside = inside.active.iter().zip(&inside.columns);
             let across = across.active.iter().zip(&across.columns);
@@ -175,9 +175,10 @@ impl<C: Copy + Default + Send + Sync> Carried<C> {
                 }
             }
             let pool = &chunk.pool;
-            for wall in chunk.walls.drain(..).filter(|wall| stays(wall.slot)) {
+            for wall in chunk.walls.iter().filter(|wall| stays(wall.slot)) {
                 let candidates = pool[wall.candidates.clone()].to_vec();
-                walls.push((id[wall.slot as usize], wall.part, wall.memories, candidates));
+                let memories = wall.memories.clone();
+                walls.push((id[wall.slot as usize], wall.part, memories, candidates));
             }
         }
         Self { pairs, walls }
