@@ -37,6 +37,13 @@ pub trait Boundary: Send + Sync {
     /// leaves it empty.
     fn candidates(&self, part: u32, centre: DVec3, reach: f64, elements: &mut Vec<u32>) -> bool;
 
+    /// Where a sphere can touch `part`, whatever the gap, if there is one such place only: a
+    /// shorter way to what [`Boundary::touches`] finds. `None` leaves it to that.
+    fn single_touch(&self, part: u32, centre: DVec3, radius: f64) -> Option<Touch> {
+        let _ = (part, centre, radius);
+        None
+    }
+
     /// Collects where a sphere touches `part` with a gap of at most `reach` m, nearest first, once
     /// per smooth piece of surface; `touches` is cleared first. The nearest is found whatever its
     /// gap if `reach` is infinite.

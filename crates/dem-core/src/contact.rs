@@ -1,7 +1,9 @@
 use glam::DVec3;
 use pendular_contact::NormalContact;
 
+use crate::lane::{Lane, Vector};
 use crate::limit;
+use crate::pairs::{Columns, Geometry, Loads, Pairs};
 use crate::{Class, Encounter, Load, Pair, PairTerm};
 
 /// A contact law of one pair of classes, or of a class and a wall material.
@@ -93,28 +95,13 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         Self { classes: classes.len(), materials, between: table, walls, rolls }
     }
 
-    #[inline(always)]
-    fn of(&self, first: u16, second: Partner) -> PairContact<N> {
+    #[inline]
+    fn law(&self, first: u16, second: Partner) -> PairContact<N> {
+        let row = usize::from(first);
         match (second, &self.between) {
-            (Partner::Wall(m), _) => {
-                self.walls[usize::from(first) * self.materials + usize::from(m)]
-            }
-            (Partner::Class(b), Table::Dense(dense)) => {
-                dense[usize::from(first) * self.classes + usize::from(b)]
-            }
+            (Partner::Wall(m), _) => self.walls[row * self.materials + usize::from(m)],
+            (Partner::Class(b), Table::Dense(dense)) => dense[row * self.classes + usize::from(b)],
             (_, Table::OnDemand(rule)) => rule(first, second),
-        }
-    }
-
-    #[inline(always)]
-    fn law(&self, pair: &Pair) -> PairContact<N> {
-        match pair.encounter.second {
-            crate::Partner::Particle(_) => {
-                self.of(pair.first_class, Partner::Class(pair.second_class))
-            }
-            crate::Partner::Wall(_) => {
-                self.of(pair.first_class, Partner::Wall(pair.second_class as u8))
-            }
         }
     }
 
@@ -124,7 +111,7 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         let walls = (0..self.materials).map(|m| Partner::Wall(m as u8));
         // A nonlinear law is read at an overlap of 2 % of the radius.
         let overlap = 0.02 * radius;
-        others.chain(walls).map(|other| self.of(first, other)).fold(
+        others.chain(walls).map(|other| self.law(first, other)).fold(
             limit::Load::default(),
             |most, law| limit::Load {
                 normal_stiffness: most.normal_stiffness.max(law.normal.stiffness(overlap)),
@@ -152,31 +139,48 @@ where
     #[inline(always)]
     fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
         let idle = encounter.gap >= 0.0;
-        if idle {
+        // A contact ends seldom: the processor foresees this branch.
+        if idle & (column.stretch != DVec3::ZERO || size_of::<N::Memory>() > 0) {
             *column = Spring::default();
         }
         idle
     }
 
+    const LANES: bool = true;
+    const COUPLES: bool = false;
+
     #[inline(always)]
-    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
-        let overlap = -pair.encounter.gap;
-        if overlap <= 0.0 {
-            return Load::default();
+    fn load(&self, pair: &Pair, mut column: &mut Self::Column) -> Load {
+        let second = match pair.encounter.second {
+            crate::Partner::Particle(_) => Partner::Class(pair.second_class),
+            crate::Partner::Wall(_) => Partner::Wall(pair.second_class as u8),
+        };
+        let law = self.law(pair.first_class, second);
+        act([&law], self.rolls, &Geometry::of(pair), &mut column).single()
+    }
+
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+    ) -> Loads<L> {
+        match &self.between {
+            Table::Dense(dense) => {
+                let laws = L::each(|k| {
+                    let [first, second] = pairs.classes(k);
+                    &dense[usize::from(first) * self.classes + usize::from(second)]
+                });
+                act(laws, self.rolls, &pairs.geometry, columns)
+            }
+            Table::OnDemand(rule) => {
+                let laws = L::each(|k| {
+                    let [first, second] = pairs.classes(k);
+                    rule(first, Partner::Class(second))
+                });
+                act(L::each(|k| &laws[k]), self.rolls, &pairs.geometry, columns)
+            }
         }
-        let law = self.law(pair);
-        let repulsion = law.normal.force(overlap, -pair.separation_speed, &mut column.memory);
-        let shear = if law.friction > 0.0 {
-            tangential(&law, pair, overlap, repulsion, &mut column.stretch)
-        } else {
-            DVec3::ZERO
-        };
-        let rolling = if law.rolling_friction > 0.0 && pair.rolling_inertia > 0.0 {
-            rolling(law.rolling_friction * repulsion.max(0.0), pair)
-        } else {
-            DVec3::ZERO
-        };
-        Load { tension: -repulsion, shear, rolling, ..Load::default() }
     }
 
     #[inline(always)]
@@ -193,39 +197,87 @@ where
     }
 }
 
-/// F_t = −k_t ξ − γ_t u, at most μ |F_n|; ξ follows the slip and the turning contact plane.
+/// What acts in pairs side by side; nothing in those that do not touch.
 #[inline(always)]
-fn tangential<N: NormalContact>(
-    law: &PairContact<N>,
-    pair: &Pair,
-    overlap: f64,
-    repulsion: f64,
-    stretch: &mut DVec3,
-) -> DVec3 {
-    let stiffness = law.normal.tangential_stiffness(overlap);
-    let half = pair.half_step_normal;
-    let before = *stretch - stretch.dot(half) * half + pair.time_step * pair.slip;
-    let now = before - before.dot(pair.normal) * pair.normal;
-    let dashpot = law.tangential_damping * pair.slip;
-    let trial = -stiffness * now - dashpot;
-    let limit = law.friction * repulsion.abs();
-    let size2 = trial.length_squared();
-    if size2 > limit * limit {
-        let force = trial * (limit / size2.sqrt());
-        *stretch = -(force + dashpot) / stiffness.max(f64::MIN_POSITIVE);
-        force
-    } else {
-        *stretch = now;
-        trial
+fn act<L: Lane, N: NormalContact>(
+    laws: L::Each<&PairContact<N>>,
+    rolls: bool,
+    pairs: &Geometry<L>,
+    columns: &mut impl Columns<Spring<N::Memory>>,
+) -> Loads<L> {
+    let (gaps, speeds) = (pairs.gap.unpack(), pairs.separation_speed.unpack());
+    let mut springs = L::each(|k| *columns.column(k));
+    let forces =
+        L::each(|k| repulsion(&laws[k].normal, gaps[k], speeds[k], &mut springs[k].memory));
+    let zero = L::splat(0.0);
+    let repulsion = pairs.gap.if_less(zero, L::pack(&forces, |f| *f), zero);
+    let stretch = Vector::<L>::pack(&springs, |s| s.stretch);
+    let (shear, stretch) = tangential(&laws, pairs, repulsion, stretch);
+    let stretch = stretch.unpack();
+    for k in 0..L::WIDTH {
+        springs[k].stretch = stretch[k];
+        *columns.column(k) = springs[k];
     }
+    let rolling = if rolls {
+        rolling(L::pack(&laws, |law| law.rolling_friction) * repulsion.most(zero), pairs)
+    } else {
+        Vector::zero()
+    };
+    Loads { tension: -repulsion, shear, rolling, ..Loads::none() }
+}
+
+/// The normal law's force; whatever where the bodies do not touch.
+#[inline(always)]
+fn repulsion<N: NormalContact>(
+    law: &N,
+    gap: f64,
+    separation_speed: f64,
+    memory: &mut N::Memory,
+) -> f64 {
+    // A law without memory may be asked anything: that saves a branch.
+    if size_of::<N::Memory>() > 0 && gap >= 0.0 {
+        return 0.0;
+    }
+    law.force(-gap, -separation_speed, memory)
+}
+
+/// F_t = −k_t ξ − γ_t u, at most μ |F_n|; ξ follows the slip and the turning contact plane.
+///
+/// Returns force and ξ; both are zero where the bodies do not touch.
+#[inline(always)]
+fn tangential<L: Lane, N: NormalContact>(
+    laws: &L::Each<&PairContact<N>>,
+    pairs: &Geometry<L>,
+    repulsion: L,
+    stretch: Vector<L>,
+) -> (Vector<L>, Vector<L>) {
+    let (half, normal, slip) = (pairs.half_step_normal, pairs.normal, pairs.slip);
+    let gaps = pairs.gap.unpack();
+    let stiffness = L::each(|k| laws[k].normal.tangential_stiffness(-gaps[k]));
+    let stiffness = L::pack(&stiffness, |k| *k);
+    let before = stretch - half * stretch.dot(half) + slip * L::splat(pairs.time_step);
+    let now = before - normal * before.dot(normal);
+    let dashpot = slip * L::pack(laws, |law| law.tangential_damping);
+    let trial = -(now * stiffness) - dashpot;
+    let limit = L::pack(laws, |law| law.friction) * repulsion.most(-repulsion);
+    let (zero, one) = (L::splat(0.0), L::splat(1.0));
+    // No force at all gives 0/0 or a huge number: both are no sliding.
+    let share = limit / trial.dot(trial).sqrt();
+    let force = trial * share.least(one);
+    let softness = zero.if_less(stiffness, one / stiffness, zero);
+    let slid = -((force + dashpot) * softness);
+    let stretch = Vector::if_less(share, one, slid, now);
+    let none = Vector::zero();
+    let touching = |v| Vector::if_less(pairs.gap, zero, v, none);
+    (touching(force), touching(stretch))
 }
 
 /// The torque that would stop the expected relative rolling in this step, at most `limit` (N m).
 #[inline(always)]
-fn rolling(limit: f64, pair: &Pair) -> DVec3 {
-    let spin = pair.expected_spin;
-    let rolling = spin - spin.dot(pair.normal) * pair.normal;
-    let stopping = -(pair.rolling_inertia / pair.time_step) * rolling;
-    let size2 = stopping.length_squared();
-    if size2 > limit * limit { stopping * (limit / size2.sqrt()) } else { stopping }
+fn rolling<L: Lane>(limit: L, pairs: &Geometry<L>) -> Vector<L> {
+    let (spin, normal) = (pairs.expected_spin, pairs.normal);
+    let rolling = spin - normal * spin.dot(normal);
+    let stopping = -(rolling * (pairs.rolling_inertia / L::splat(pairs.time_step)));
+    let share = limit / stopping.dot(stopping).sqrt();
+    stopping * share.least(L::splat(1.0))
 }

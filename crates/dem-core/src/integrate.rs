@@ -14,6 +14,21 @@ pub(crate) struct Moved {
     pub(crate) check: f64,
 }
 
+/// What a kick gives to a particle of one class.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Push {
+    /// Time over mass, s/kg.
+    mass: f64,
+    /// Time over moment of inertia, s/(kg m²).
+    inertia: f64,
+}
+
+impl Push {
+    pub(crate) fn new(class: &Class, kick: f64) -> Self {
+        Self { mass: kick / class.mass(), inertia: kick / class.inertia() }
+    }
+}
+
 /// One chunk's slices of the columns that change.
 pub(crate) struct Bodies<'a> {
     pub(crate) places: &'a mut [Place],
@@ -24,29 +39,30 @@ pub(crate) struct Bodies<'a> {
 
 /// Leapfrog: v(n+1/2) = v(n−1/2) + `kick` F/m, x(n+1) = x(n) + `drift` v(n+1/2).
 ///
-/// `kick` is half a step at the start, where the velocities are those of the positions' time.
+/// The kick is half a step at the start, where the velocities are those of the positions' time;
+/// `pushes` are its effect by class, `fall` what gravity adds to a velocity.
 pub(crate) fn integrate<C>(
     chunk: &Chunk<C>,
     bodies: Bodies<'_>,
-    classes: &[Class],
-    gravity: DVec3,
-    kick: f64,
+    pushes: &[Push],
+    fall: DVec3,
     drift: f64,
 ) -> Moved {
     let mut moved = Moved::default();
     let Bodies { places, velocities, rolls, class } = bodies;
-    for (slot, sum) in chunk.sums.iter().enumerate() {
-        let kind = &classes[usize::from(class[slot])];
-        let Velocity { v, w } = &mut velocities[slot];
-        let turn = kick / kind.inertia();
-        *v += (kick / kind.mass()) * sum.force + kick * gravity;
+    let columns = places.iter_mut().zip(velocities).zip(class).zip(&chunk.sums);
+    for (slot, (((place, velocity), class), sum)) in columns.enumerate() {
+        let push = pushes[usize::from(*class)];
+        let Velocity { v, w } = velocity;
+        let turn = push.inertia;
+        *v += push.mass * sum.force + fall;
         if let (Some(roll), Some(brake)) = (rolls.get_mut(slot), chunk.rolls.get(slot)) {
             *roll = Roll { spin: turn * sum.torque, contacts: brake.contacts.max(1.0) };
             *w += roll.spin + turn * brake.spin;
         } else {
             *w += turn * sum.torque;
         }
-        places[slot].x += drift * *v;
+        place.x += drift * *v;
         let speed2 = v.length_squared();
         moved.fastest2 = moved.fastest2.max(speed2);
         moved.check += speed2 + w.length_squared();

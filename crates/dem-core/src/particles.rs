@@ -60,6 +60,7 @@ impl Class {
 
 /// Position and radius, the column that every neighbour reads.
 #[derive(Debug, Clone, Copy)]
+#[repr(C, align(32))]
 pub(crate) struct Place {
     pub(crate) x: DVec3,
     pub(crate) r: f64,
@@ -67,6 +68,7 @@ pub(crate) struct Place {
 
 /// Velocity and spin, half a step behind the positions.
 #[derive(Debug, Clone, Copy)]
+#[repr(C, align(16))]
 pub(crate) struct Velocity {
     pub(crate) v: DVec3,
     pub(crate) w: DVec3,

@@ -6,7 +6,9 @@ use std::time::Instant;
 use glam::DVec3;
 
 use crate::chunk::{Chunk, List, Note, Roll, Sum};
+use crate::lane::{Four, Lane, Vector};
 use crate::lists::{Entry, PairList};
+use crate::pairs::{Geometry, Pairs, Picked};
 use crate::particles::{Class, Particles, Place, Velocity};
 use crate::{Encounter, Load, Pair, PairTerm, Partner};
 
@@ -34,58 +36,68 @@ impl<'a> View<'a> {
         self.classes[usize::from(self.class[slot])].inertia()
     }
 
-    /// Two particles and the distance of their centres.
     #[inline(always)]
-    pub(crate) fn meet(&self, [a, b]: Entry) -> (Encounter, DVec3, f64) {
-        let (a, b) = (a as usize, b as usize);
-        let (p, q) = (&self.places[a], &self.places[b]);
-        let line = q.x - p.x;
-        let distance = line.length();
-        let gap = distance - (p.r + q.r);
-        let second = Partner::Particle(self.id[b]);
-        (Encounter { first: self.id[a], second, element: 0, nearest: true, gap }, line, distance)
+    pub(crate) fn encounter(&self, [a, b]: Entry, gap: f64) -> Encounter {
+        let second = Partner::Particle(self.id[b as usize]);
+        Encounter { first: self.id[a as usize], second, element: 0, nearest: true, gap }
     }
 
-    /// All there is to know of the pair.
+    /// Two particles that meet.
     #[inline(always)]
-    pub(crate) fn pair<const ROLLS: bool>(
-        &self,
-        [a, b]: Entry,
-        encounter: Encounter,
-        line: DVec3,
-        distance: f64,
-    ) -> Pair {
-        let (a, b) = (a as usize, b as usize);
-        let (ri, rj) = (self.places[a].r, self.places[b].r);
-        let (vi, vj) = (&self.velocities[a], &self.velocities[b]);
-        let velocity = vi.v - vj.v;
-        let half_step_normal = (line + self.lag * velocity).normalize();
+    pub(crate) fn meet(&self, entry: Entry) -> Encounter {
+        let (p, q) = (&self.places[entry[0] as usize], &self.places[entry[1] as usize]);
+        self.encounter(entry, (q.x - p.x).length() - (p.r + q.r))
+    }
+
+    /// Pairs side by side.
+    #[inline(always)]
+    pub(crate) fn pairs<L: Lane, const ROLLS: bool>(
+        &'a self,
+        entries: L::Each<Entry>,
+    ) -> Pairs<'a, L> {
+        let places = |side: usize| L::each(|k| &self.places[entries[k][side] as usize]);
+        let velocities = |side: usize| L::each(|k| &self.velocities[entries[k][side] as usize]);
+        let (p, q) = (places(0), places(1));
+        let radii = [L::pack(&p, |p| p.r), L::pack(&q, |q| q.r)];
+        let line = Vector::<L>::pack(&q, |q| q.x) - Vector::<L>::pack(&p, |p| p.x);
+        let distance = line.dot(line).sqrt();
+        let gap = distance - (radii[0] + radii[1]);
+        let (p, q) = (velocities(0), velocities(1));
+        let velocity = Vector::<L>::pack(&p, |p| p.v) - Vector::<L>::pack(&q, |q| q.v);
+        let (wi, wj) = (Vector::<L>::pack(&p, |p| p.w), Vector::<L>::pack(&q, |q| q.w));
+        let half = line + velocity * L::splat(self.lag);
+        let half_step_normal = half * (L::splat(1.0) / half.dot(half).sqrt());
         // The contact lies in the middle of gap or overlap, so that li + lj is the distance.
-        let (li, lj) = (ri + 0.5 * encounter.gap, rj + 0.5 * encounter.gap);
+        let half_gap = L::splat(0.5) * gap;
+        let levers = [radii[0] + half_gap, radii[1] + half_gap];
         let along = velocity.dot(half_step_normal);
-        let turning = (li * vi.w + lj * vj.w).cross(half_step_normal);
-        let mut pair = Pair {
-            encounter,
-            first_class: self.class[a],
-            second_class: self.class[b],
-            radii: [ri, rj],
-            normal: line * distance.recip(),
+        let turning = (wi * levers[0] + wj * levers[1]).cross(half_step_normal);
+        let spin = wi - wj;
+        let mut geometry = Geometry {
+            gap,
+            radii,
+            normal: line * (L::splat(1.0) / distance),
             half_step_normal,
             separation_speed: -along,
-            slip: velocity - along * half_step_normal + turning,
-            spin: vi.w - vj.w,
-            expected_spin: DVec3::ZERO,
-            rolling_inertia: 0.0,
-            levers: [li, lj],
+            slip: velocity - half_step_normal * along + turning,
+            spin,
+            expected_spin: Vector::zero(),
+            rolling_inertia: L::splat(0.0),
+            levers,
             time_step: self.time_step,
         };
         if ROLLS {
-            let (mi, mj) = (&self.rolls[a], &self.rolls[b]);
-            pair.expected_spin = pair.spin + (mi.spin - mj.spin);
-            let brake = mi.contacts / self.inertia(a) + mj.contacts / self.inertia(b);
-            pair.rolling_inertia = 1.0 / brake;
+            let rolls = |side: usize| L::each(|k| &self.rolls[entries[k][side] as usize]);
+            let (p, q) = (rolls(0), rolls(1));
+            geometry.expected_spin =
+                spin + (Vector::<L>::pack(&p, |p| p.spin) - Vector::<L>::pack(&q, |q| q.spin));
+            let brake = L::each(|k| {
+                let [a, b] = entries[k].map(|slot| slot as usize);
+                p[k].contacts / self.inertia(a) + q[k].contacts / self.inertia(b)
+            });
+            geometry.rolling_inertia = L::splat(1.0) / L::pack(&brake, |b| *b);
         }
-        pair
+        Pairs { view: self, entries, geometry }
     }
 }
 
@@ -96,10 +108,10 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
     chunk: &mut Chunk<T::Column>,
 ) {
     let start = Instant::now();
-    let Chunk { range, inside, across, sums, rolls, notes, overlap, pair_time, .. } = chunk;
+    let Chunk { range, inside, across, sums, rolls, notes, acting, overlap, pair_time, .. } = chunk;
     let mut out = Out { range, sums, rolls, notes, overlap };
-    list::<T, ROLLS, true>(view, term, inside, &mut out);
-    list::<T, ROLLS, false>(view, term, across, &mut out);
+    list::<T, ROLLS, true>(view, term, inside, acting, &mut out);
+    list::<T, ROLLS, false>(view, term, across, acting, &mut out);
     *pair_time += start.elapsed();
 }
 
@@ -111,53 +123,117 @@ struct Out<'a> {
     overlap: &'a mut f64,
 }
 
-/// One list. `INSIDE`: both particles are the chunk's own; else the load goes to one of them only,
-/// computed in the same orientation as the chunk of the other one does.
+/// One list: first which pairs act, then what acts in them, several side by side.
+///
+/// `INSIDE`: both particles are the chunk's own; else the load goes to one of them only, computed
+/// in the same orientation as the chunk of the other one does.
 fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
+    acting: &mut Vec<u32>,
     out: &mut Out<'_>,
 ) {
+    let count = pick(view, term, list, acting);
+    let acting = &acting[..count];
+    let (fours, rest) = if T::LANES { acting.as_chunks::<4>() } else { (&[][..], acting) };
+    for at in fours {
+        block::<T, Four, ROLLS, INSIDE>(view, term, list, at, out);
+    }
+    for at in rest {
+        block::<T, f64, ROLLS, INSIDE>(view, term, list, std::slice::from_ref(at), out);
+    }
+}
+
+/// Writes the places of all pairs that are not idle to the front of `acting`, without branching
+/// on what no processor can foresee.
+#[inline(always)]
+fn pick<T: PairTerm>(
+    view: &View<'_>,
+    term: &T,
+    list: &mut PairList<T::Column>,
+    acting: &mut Vec<u32>,
+) -> usize {
+    acting.resize(list.active.len(), 0);
+    let mut count = 0;
     for (index, (&entry, column)) in list.active.iter().zip(&mut list.columns).enumerate() {
-        let (encounter, line, distance) = view.meet(entry);
-        if term.idle(&encounter, column) {
-            continue;
+        acting[count] = index as u32;
+        count += usize::from(!term.idle(&view.meet(entry), column));
+    }
+    count
+}
+
+#[inline(always)]
+fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
+    view: &View<'_>,
+    term: &T,
+    list: &mut PairList<T::Column>,
+    at: &[u32],
+    out: &mut Out<'_>,
+) {
+    let pairs = view.pairs::<L, ROLLS>(L::each(|k| list.active[at[k] as usize]));
+    let loads = term.load_lanes(&pairs, &mut Picked { columns: &mut list.columns, at });
+    let g = &pairs.geometry;
+    let force = (g.normal * loads.tension + loads.shear).unpack();
+    let arm = g.normal.cross(loads.shear);
+    let mut torques = [arm * g.levers[0], arm * g.levers[1]];
+    if T::COUPLES {
+        torques = [torques[0] + loads.couple, torques[1] - loads.couple];
+    }
+    let torques = [torques[0].unpack(), torques[1].unpack()];
+    for k in 0..L::WIDTH {
+        let entry = pairs.entries[k];
+        if INSIDE {
+            let slot = |side: usize| (entry[side] - out.range.start) as usize;
+            add(&mut out.sums[slot(0)], force[k], torques[0][k]);
+            add(&mut out.sums[slot(1)], -force[k], torques[1][k]);
+        } else {
+            let second = !out.range.contains(&entry[0]);
+            let slot = (entry[usize::from(second)] - out.range.start) as usize;
+            let force = if second { -force[k] } else { force[k] };
+            add(&mut out.sums[slot], force, torques[usize::from(second)][k]);
         }
-        let pair = view.pair::<ROLLS>(entry, encounter, line, distance);
-        let load = term.load(&pair, column);
-        let ours = |slot: u32| INSIDE || out.range.contains(&slot);
-        let (first, second) = (ours(entry[0]), ours(entry[1]));
-        let slot = |k: usize| (entry[k] - out.range.start) as usize;
-        let touching = encounter.gap < 0.0;
-        if first {
-            add::<ROLLS>(&mut out.sums[slot(0)], &load, &pair, 0);
-            if ROLLS && touching {
-                roll(&mut out.rolls[slot(0)], load.rolling);
-            }
-        }
-        if second {
-            add::<ROLLS>(&mut out.sums[slot(1)], &load, &pair, 1);
-            if ROLLS && touching {
-                roll(&mut out.rolls[slot(1)], -load.rolling);
-            }
-        }
-        if -encounter.gap > *out.overlap * pair.radii[0].min(pair.radii[1]) {
-            *out.overlap = -encounter.gap / pair.radii[0].min(pair.radii[1]);
-        }
-        if load.attention {
-            let kind = if INSIDE { List::Inside } else { List::Across };
-            out.notes.push(Note { pair, list: kind, index: index as u32 });
+    }
+    if ROLLS {
+        brake::<L>(&pairs, loads.rolling, out);
+    }
+    let smaller = g.radii[0].least(g.radii[1]);
+    if (L::splat(*out.overlap) * smaller).any_less(-g.gap) {
+        let shares = (-g.gap / smaller).unpack();
+        *out.overlap = (0..L::WIDTH).fold(*out.overlap, |most, k| most.max(shares[k]));
+    }
+    if loads.attention != 0 {
+        let kind = if INSIDE { List::Inside } else { List::Across };
+        for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
+            out.notes.push(Note { pair: pairs.pair(k), list: kind, index: at[k] });
         }
     }
 }
 
-/// Adds a load to the first (`side` 0) or second particle (`side` 1) of a pair.
 #[inline(always)]
-pub(crate) fn add<const ROLLS: bool>(sum: &mut Sum, load: &Load, pair: &Pair, side: usize) {
-    let sign = if side == 0 { 1.0 } else { -1.0 };
-    sum.force += sign * (load.tension * pair.normal + load.shear);
-    sum.torque += pair.levers[side] * pair.normal.cross(load.shear) + sign * load.couple;
+fn add(sum: &mut Sum, force: DVec3, torque: DVec3) {
+    sum.force += force;
+    sum.torque += torque;
+}
+
+/// Adds the torques of rolling friction to the chunk's own particles.
+#[inline(always)]
+fn brake<L: Lane>(pairs: &Pairs<'_, L>, torque: Vector<L>, out: &mut Out<'_>) {
+    let (gaps, torque) = (pairs.geometry.gap.unpack(), torque.unpack());
+    for k in (0..L::WIDTH).filter(|&k| gaps[k] < 0.0) {
+        for (slot, torque) in pairs.entries[k].into_iter().zip([torque[k], -torque[k]]) {
+            if out.range.contains(&slot) {
+                roll(&mut out.rolls[(slot - out.range.start) as usize], torque);
+            }
+        }
+    }
+}
+
+/// Adds a load to the particle at a wall.
+#[inline(always)]
+pub(crate) fn add_wall(sum: &mut Sum, load: &Load, pair: &Pair) {
+    let force = load.tension * pair.normal + load.shear;
+    add(sum, force, pair.levers[0] * pair.normal.cross(load.shear) + load.couple);
 }
 
 #[inline(always)]

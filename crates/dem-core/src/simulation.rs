@@ -5,7 +5,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use crate::chunk::{Chunk, List, Note, Roll, WallPair};
-use crate::integrate::{Bodies, Moved, integrate};
+use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
 use crate::order::chunk_size;
 use crate::particles::{Particles, Place};
@@ -13,6 +13,9 @@ use crate::pass::{self, View};
 use crate::{Boundary, PairTerm, Profile, SimulationError, Visit, wall_pass};
 
 mod neighbours;
+mod snapshot;
+
+pub use snapshot::{RollState, Snapshot, WallMemory};
 
 /// Steps between looks for particles that left the scene or walls that were taken away.
 const LEAVE_EVERY: u64 = 64;
@@ -102,15 +105,28 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     pub fn new(
         particles: Particles,
         term: T,
-        mut boundary: B,
+        boundary: B,
+        settings: Settings,
+    ) -> Result<Self, SimulationError> {
+        let mut simulation = Self::bare(particles, term, boundary, settings)?;
+        simulation.boundary.move_to(0.0, 0.0);
+        simulation.sort(&[]);
+        simulation.check_overlaps()?;
+        Ok(simulation)
+    }
+
+    /// A simulation whose particles are not yet cut into chunks.
+    fn bare(
+        particles: Particles,
+        term: T,
+        boundary: B,
         settings: Settings,
     ) -> Result<Self, SimulationError> {
         let limit = check(&particles, &term, &settings)?;
-        boundary.move_to(0.0, 0.0);
         let lists = neighbours::State::new(&particles, &settings);
         let start = Roll { spin: DVec3::ZERO, contacts: 1.0 };
         let rolls = vec![start; if term.rolls() { particles.len() } else { 0 }];
-        let mut simulation = Self {
+        Ok(Self {
             particles,
             term,
             boundary,
@@ -123,10 +139,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             departures: Vec::new(),
             profile: Profile::default(),
             limit,
-        };
-        simulation.sort(&[]);
-        simulation.check_overlaps()?;
-        Ok(simulation)
+        })
     }
 
     /// Goes on for `steps` time steps.
@@ -237,7 +250,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let across = across.filter(|(e, _)| chunk.range.contains(&e[0]));
             let inside = chunk.inside.active.iter().zip(&chunk.inside.columns);
             for (&entry, column) in inside.chain(across) {
-                let (encounter, ..) = view.meet(entry);
+                let encounter = view.meet(entry);
                 if encounter.gap < 0.0 || self.term.live(column) {
                     see(&encounter, column);
                 }
@@ -330,11 +343,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn integrate(&mut self, kick: f64, drift: f64) -> Moved {
         let size = self.lists.chunk_size;
         let Particles { places, velocities, class, .. } = &mut self.particles;
-        let (classes, gravity) = (&self.lists.classes, self.settings.gravity);
+        let pushes: Vec<_> = self.lists.classes.iter().map(|c| Push::new(c, kick)).collect();
+        let fall = kick * self.settings.gravity;
         let (chunks, rolls) = (&self.chunks, &mut self.rolls);
         let one = |((((chunk, places), velocities), class), rolls): (_, &mut [Roll])| {
             let bodies = Bodies { places, velocities, rolls, class };
-            integrate(chunk, bodies, classes, gravity, kick, drift)
+            integrate(chunk, bodies, &pushes, fall, drift)
         };
         let mut parts: Vec<&mut [Roll]> = rolls.chunks_mut(size).collect();
         parts.resize_with(chunks.len(), Default::default);
@@ -426,7 +440,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         };
         for chunk in &self.chunks {
             for &entry in chunk.inside.active.iter().chain(&chunk.across.active) {
-                let (encounter, ..) = view.meet(entry);
+                let encounter = view.meet(entry);
                 let [a, b] = entry.map(|slot| view.places[slot as usize].r);
                 if -encounter.gap > share * a.min(b) {
                     return fail(encounter, share * a.min(b));
@@ -486,8 +500,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                         let ends = goes(entry[0]) || goes(entry[1]);
                         let ours = !across || chunk.range.contains(&entry[0]);
                         if ends && ours && term.live(column) {
-                            let (encounter, line, distance) = view.meet(entry);
-                            let pair = view.pair::<false>(entry, encounter, line, distance);
+                            let pair = view.pairs::<f64, false>([entry]).pair(0);
                             visits.push(Visit { pair, column: *column, ending: true });
                         }
                     }
@@ -531,6 +544,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         if !self.rolls.is_empty() {
             self.rolls = slots.iter().map(|&s| self.rolls[s as usize]).collect();
         }
+        self.cut(carried);
+        self.profile.neighbours += start.elapsed();
+    }
+
+    /// Cuts the particles, in the order they stand in, into chunks that own the carried columns.
+    fn cut(&mut self, carried: neighbours::Carried<T::Column>) {
         let size = chunk_size(self.particles.len());
         self.lists.renew(&self.particles, size);
         for chunk in &self.chunks {
@@ -545,6 +564,5 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             .map(|first| Chunk::new(first..n.min(first + size as u32), rolls))
             .collect();
         carried.hand_out(self);
-        self.profile.neighbours += start.elapsed();
     }
 }

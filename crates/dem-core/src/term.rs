@@ -1,4 +1,6 @@
+use crate::lane::Lane;
 use crate::limit;
+use crate::pairs::{Columns, First, Loads, Pairs, Part, Second};
 use crate::{Class, Encounter, Load, Pair};
 
 /// Any error of a term.
@@ -31,6 +33,24 @@ pub trait PairTerm: Send + Sync {
 
     /// Read half: what acts in this pair. Pure but for the pair's own column.
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load;
+
+    /// Whether [`PairTerm::load_lanes`] does more than call [`PairTerm::load`] for each pair, so that
+    /// it pays to bring pairs to it several at a time.
+    const LANES: bool = false;
+
+    /// Whether a load can have a couple.
+    const COUPLES: bool = true;
+
+    /// Read half for particles, several pairs side by side: to the bit what [`PairTerm::load`] gives
+    /// for each of them.
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+    ) -> Loads<L> {
+        Loads::pack(&L::each(|k| self.load(&pairs.pair(k), columns.column(k))))
+    }
 
     /// Whether the column must not be lost, whatever the gap.
     fn live(&self, column: &Self::Column) -> bool;
@@ -102,6 +122,19 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.load(pair, &mut column.0) + self.1.load(pair, &mut column.1)
     }
 
+    const LANES: bool = A::LANES || B::LANES;
+    const COUPLES: bool = A::COUPLES || B::COUPLES;
+
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+    ) -> Loads<L> {
+        let first = self.0.load_lanes(pairs, &mut Part::<_, First<B::Column>>::of(columns));
+        first + self.1.load_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns))
+    }
+
     #[inline(always)]
     fn live(&self, column: &Self::Column) -> bool {
         self.0.live(&column.0) || self.1.live(&column.1)
@@ -149,6 +182,18 @@ impl<T: PairTerm> PairTerm for Option<T> {
     #[inline(always)]
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
         self.as_ref().map_or_else(Load::default, |term| term.load(pair, column))
+    }
+
+    const LANES: bool = T::LANES;
+    const COUPLES: bool = T::COUPLES;
+
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+    ) -> Loads<L> {
+        self.as_ref().map_or_else(Loads::none, |term| term.load_lanes(pairs, columns))
     }
 
     #[inline(always)]

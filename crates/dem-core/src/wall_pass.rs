@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::chunk::{Chunk, List, Memory, Note, WallPair};
 use crate::particles::Place;
-use crate::pass::{View, add, roll};
+use crate::pass::{View, add_wall, roll};
 use crate::{Boundary, Encounter, Pair, PairTerm, Partner, Touch};
 
 /// Two touches of one part whose normals differ by less than this cosine are the same touch.
@@ -34,6 +34,7 @@ pub(crate) fn read<T: PairTerm, B: Boundary, const ROLLS: bool>(
     chunk.wall_time += start.elapsed();
 }
 
+#[inline]
 fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     view: &View<'_>,
     term: &T,
@@ -45,6 +46,20 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
 ) {
     let Place { x, r } = view.places[wall.slot as usize];
     let live = wall.memories.iter().any(|m| term.live(&m.column));
+    if let Some(touch) = boundary.single_touch(wall.part, x, r) {
+        if !live && !(touch.gap <= reach) {
+            wall.memories.clear();
+            return;
+        }
+        let same = |m: &Memory<T::Column>| m.touch.normal.dot(touch.normal) >= SAME;
+        if wall.memories.is_empty() {
+            wall.memories.push(Memory { touch, column: T::Column::default() });
+        }
+        if wall.memories.len() == 1 && same(&wall.memories[0]) {
+            act::<T, B, ROLLS>(view, term, boundary, chunk, wall, index, 0, &touch);
+            return;
+        }
+    }
     let reach = if live { f64::INFINITY } else { reach };
     let candidates = &chunk.pool[wall.candidates.clone()];
     boundary.touches(wall.part, candidates, x, r, reach, &mut chunk.touches);
@@ -53,30 +68,50 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
         return;
     }
     remember(term, &chunk.touches, &mut wall.memories, &mut chunk.memories);
-    for (k, touch) in chunk.touches.iter().enumerate() {
-        let memory = &mut wall.memories[k];
-        let before = std::mem::replace(&mut memory.touch, *touch).normal;
-        let encounter = Encounter {
-            first: view.id[wall.slot as usize],
-            second: Partner::Wall(wall.part),
-            element: touch.element,
-            nearest: k == 0,
-            gap: touch.gap,
-        };
-        if term.idle(&encounter, &mut memory.column) {
-            continue;
-        }
-        let pair = pair::<B, ROLLS>(view, boundary, wall.slot, encounter, touch, before);
-        let load = term.load(&pair, &mut memory.column);
-        let slot = (wall.slot - chunk.range.start) as usize;
-        add::<ROLLS>(&mut chunk.sums[slot], &load, &pair, 0);
-        if ROLLS && touch.gap < 0.0 {
-            roll(&mut chunk.rolls[slot], load.rolling);
-        }
-        chunk.overlap = chunk.overlap.max(-touch.gap / r);
-        if load.attention {
-            chunk.notes.push(Note { pair, list: List::Wall { memory: k as u32 }, index });
-        }
+    let touches = std::mem::take(&mut chunk.touches);
+    for (k, touch) in touches.iter().enumerate() {
+        act::<T, B, ROLLS>(view, term, boundary, chunk, wall, index, k, touch);
+    }
+    chunk.touches = touches;
+}
+
+/// Loads one touch, the `k`-th nearest of its part.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)] // one loop body in two places
+fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
+    view: &View<'_>,
+    term: &T,
+    boundary: &B,
+    chunk: &mut Chunk<T::Column>,
+    wall: &mut WallPair<T::Column>,
+    index: u32,
+    k: usize,
+    touch: &Touch,
+) {
+    let memory = &mut wall.memories[k];
+    let before = std::mem::replace(&mut memory.touch, *touch).normal;
+    let encounter = Encounter {
+        first: view.id[wall.slot as usize],
+        second: Partner::Wall(wall.part),
+        element: touch.element,
+        nearest: k == 0,
+        gap: touch.gap,
+    };
+    if term.idle(&encounter, &mut memory.column) {
+        return;
+    }
+    let pair = pair::<B, ROLLS>(view, boundary, wall.slot, encounter, touch, before);
+    let load = term.load(&pair, &mut memory.column);
+    let slot = (wall.slot - chunk.range.start) as usize;
+    add_wall(&mut chunk.sums[slot], &load, &pair);
+    if ROLLS && touch.gap < 0.0 {
+        roll(&mut chunk.rolls[slot], load.rolling);
+    }
+    if -touch.gap > chunk.overlap * pair.radii[0] {
+        chunk.overlap = -touch.gap / pair.radii[0];
+    }
+    if load.attention {
+        chunk.notes.push(Note { pair, list: List::Wall { memory: k as u32 }, index });
     }
 }
 
@@ -108,6 +143,7 @@ fn remember<T: PairTerm>(
 }
 
 /// A particle and a wall. The half-step normal is the mean of the last two: right on any shape.
+#[inline(always)]
 fn pair<B: Boundary, const ROLLS: bool>(
     view: &View<'_>,
     boundary: &B,

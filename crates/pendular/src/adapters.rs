@@ -46,6 +46,11 @@ impl Boundary for MeshWalls {
     }
 
     #[inline]
+    fn single_touch(&self, part: u32, centre: DVec3, radius: f64) -> Option<Touch> {
+        self.0.single_touch(part, centre, radius).map(touch)
+    }
+
+    #[inline]
     fn touches(
         &self,
         part: u32,
@@ -58,10 +63,13 @@ impl Boundary for MeshWalls {
         FOUND.with_borrow_mut(|found| {
             self.0.touches(part, candidates, centre, radius, reach, found);
             touches.clear();
-            touches.extend(found.iter().map(|t| {
-                let pendular_walls::Touch { element, gap, normal } = *t;
-                Touch { element, gap, normal }
-            }));
+            touches.extend(found.iter().copied().map(touch));
         });
     }
+}
+
+#[inline]
+fn touch(touch: pendular_walls::Touch) -> Touch {
+    let pendular_walls::Touch { element, gap, normal } = touch;
+    Touch { element, gap, normal }
 }

@@ -62,10 +62,12 @@ impl Plane {
     }
 
     /// Signed distance of a point from the plane, m; negative in the solid.
+    #[inline]
     pub(crate) fn height(&self, point: DVec3) -> f64 {
         (point - self.point).dot(self.normal)
     }
 
+    #[inline]
     pub(crate) fn touch(&self, centre: DVec3, radius: f64) -> Touch {
         Touch { element: 0, gap: self.height(centre) - radius, normal: -self.normal }
     }

@@ -105,12 +105,21 @@ impl Shape {
     ) {
         let touch = match self {
             Self::Mesh(mesh) => return mesh.touches(candidates, centre, radius, reach, out),
-            Self::Plane(plane) => plane.touch(centre, radius),
-            Self::Wire(wire) => wire.touch(centre, radius),
-            Self::Frame(frame) => frame.touch(centre, radius),
+            _ => self.single_touch(centre, radius),
         };
-        if touch.gap <= reach {
+        if let Some(touch) = touch.filter(|touch| touch.gap <= reach) {
             out.push(touch);
+        }
+    }
+
+    /// The one place where a sphere can touch a plane, a wire or a frame, whatever the gap.
+    #[inline]
+    pub(crate) fn single_touch(&self, centre: DVec3, radius: f64) -> Option<Touch> {
+        match self {
+            Self::Mesh(_) => None,
+            Self::Plane(plane) => Some(plane.touch(centre, radius)),
+            Self::Wire(wire) => Some(wire.touch(centre, radius)),
+            Self::Frame(frame) => Some(frame.touch(centre, radius)),
         }
     }
 }

@@ -111,6 +111,7 @@ impl Walls {
     /// # Panics
     /// Where there is no such part.
     #[must_use]
+    #[inline]
     pub fn displacement(&self, part: u32) -> DVec3 {
         self.displacements[self.motion_of[part as usize] as usize]
     }
@@ -120,6 +121,7 @@ impl Walls {
     /// # Panics
     /// Where there is no such part.
     #[must_use]
+    #[inline]
     pub fn velocity(&self, part: u32) -> DVec3 {
         self.velocities[self.motion_of[part as usize] as usize]
     }
@@ -129,6 +131,7 @@ impl Walls {
     /// # Panics
     /// Where there is no such part.
     #[must_use]
+    #[inline]
     pub fn is_present(&self, part: u32) -> bool {
         self.time < self.parts[part as usize].present_until
     }
@@ -212,6 +215,15 @@ impl Walls {
             let shape = &self.parts[part as usize].shape;
             shape.touches(candidates, point, radius, reach, out);
         }
+    }
+
+    /// The one place where a sphere can touch a `part` that is a plane, a wire or a frame, whatever
+    /// the gap and without asking whether the part is there; `None` for a mesh.
+    #[must_use]
+    #[inline]
+    pub fn single_touch(&self, part: u32, centre: DVec3, radius: f64) -> Option<Touch> {
+        let point = centre - self.displacement(part);
+        self.parts[part as usize].shape.single_touch(point, radius)
     }
 
     /// Triangles for drawing a part where it is now; `sides` is the number of sides of a

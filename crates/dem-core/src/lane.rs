@@ -1,0 +1,324 @@
+//! Numbers that may be several at once.
+//!
+//! The kernels of the core are written once, over a [`Lane`]: `f64` is one number, [`Four`] are four
+//! side by side. Both do the same operations in the same order, so they give the same bits.
+
+use std::ops::{Add, AddAssign, Div, IndexMut, Mul, Neg, Sub};
+
+use glam::DVec3;
+use wide::f64x4;
+
+/// One number, or several of independent pairs side by side.
+pub trait Lane:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// How many numbers there are.
+    const WIDTH: usize;
+
+    /// Something of each.
+    type Each<T>: IndexMut<usize, Output = T>;
+
+    /// Makes something of each lane.
+    fn each<T>(make: impl FnMut(usize) -> T) -> Self::Each<T>;
+
+    /// Reads a number out of each.
+    fn pack<T>(from: &Self::Each<T>, read: impl Fn(&T) -> f64) -> Self;
+
+    /// The numbers.
+    fn unpack(self) -> Self::Each<f64>;
+
+    /// The same number in each lane.
+    fn splat(value: f64) -> Self;
+
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// The smaller of the two; `other` if they cannot be compared.
+    #[must_use]
+    fn least(self, other: Self) -> Self;
+
+    /// The larger of the two; `other` if they cannot be compared.
+    #[must_use]
+    fn most(self, other: Self) -> Self;
+
+    /// In each lane `then` where `self` is less than `bound`, else `otherwise`.
+    #[must_use]
+    fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self;
+
+    /// Whether `self` is less than `bound` in any lane.
+    fn any_less(self, bound: Self) -> bool;
+}
+
+impl Lane for f64 {
+    const WIDTH: usize = 1;
+
+    type Each<T> = [T; 1];
+
+    #[inline(always)]
+    fn each<T>(mut make: impl FnMut(usize) -> T) -> [T; 1] {
+        [make(0)]
+    }
+
+    #[inline(always)]
+    fn pack<T>(from: &[T; 1], read: impl Fn(&T) -> f64) -> f64 {
+        read(&from[0])
+    }
+
+    #[inline(always)]
+    fn unpack(self) -> [f64; 1] {
+        [self]
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn least(self, other: f64) -> f64 {
+        if self < other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn most(self, other: f64) -> f64 {
+        if self > other { self } else { other }
+    }
+
+    #[inline(always)]
+    fn if_less(self, bound: f64, then: f64, otherwise: f64) -> f64 {
+        if self < bound { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn any_less(self, bound: f64) -> bool {
+        self < bound
+    }
+}
+
+/// Four numbers side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Four(f64x4);
+
+macro_rules! four_operator {
+    ($($trait:ident $method:ident $operator:tt)+) => {$(
+        impl $trait for Four {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0 $operator other.0)
+            }
+        }
+    )+};
+}
+
+four_operator! { Add add + Sub sub - Mul mul * Div div / }
+
+impl Neg for Four {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Lane for Four {
+    const WIDTH: usize = 4;
+
+    type Each<T> = [T; 4];
+
+    #[inline(always)]
+    fn each<T>(mut make: impl FnMut(usize) -> T) -> [T; 4] {
+        // Not `std::array::from_fn`: that leaves a loop and all arrays in memory.
+        [make(0), make(1), make(2), make(3)]
+    }
+
+    #[inline(always)]
+    fn pack<T>(from: &[T; 4], read: impl Fn(&T) -> f64) -> Self {
+        Self(f64x4::new([read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])]))
+    }
+
+    #[inline(always)]
+    fn unpack(self) -> [f64; 4] {
+        self.0.to_array()
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self(f64x4::splat(value))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        Self(self.0.fast_min(other.0))
+    }
+
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        Self(self.0.fast_max(other.0))
+    }
+
+    #[inline(always)]
+    fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
+        Self(self.0.simd_lt(bound.0).bitselect(then.0, otherwise.0))
+    }
+
+    #[inline(always)]
+    fn any_less(self, bound: Self) -> bool {
+        self.0.simd_lt(bound.0).any()
+    }
+}
+
+/// A vector, or several side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vector<L> {
+    /// First component.
+    pub x: L,
+    /// Second component.
+    pub y: L,
+    /// Third component.
+    pub z: L,
+}
+
+impl<L: Lane> Vector<L> {
+    /// The zero vector in each lane.
+    #[must_use]
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let zero = L::splat(0.0);
+        Self { x: zero, y: zero, z: zero }
+    }
+
+    /// Reads a vector out of each.
+    #[inline(always)]
+    pub fn pack<T>(from: &L::Each<T>, read: impl Fn(&T) -> DVec3) -> Self {
+        Self {
+            x: L::pack(from, |t| read(t).x),
+            y: L::pack(from, |t| read(t).y),
+            z: L::pack(from, |t| read(t).z),
+        }
+    }
+
+    /// The vectors.
+    #[inline(always)]
+    pub fn unpack(self) -> L::Each<DVec3> {
+        let (x, y, z) = (self.x.unpack(), self.y.unpack(), self.z.unpack());
+        L::each(|k| DVec3::new(x[k], y[k], z[k]))
+    }
+
+    /// Scalar product.
+    #[must_use]
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> L {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Vector product.
+    #[must_use]
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// In each lane `then` where `value` is less than `bound`, else `otherwise`.
+    #[must_use]
+    #[inline(always)]
+    pub fn if_less(value: L, bound: L, then: Self, otherwise: Self) -> Self {
+        Self {
+            x: value.if_less(bound, then.x, otherwise.x),
+            y: value.if_less(bound, then.y, otherwise.y),
+            z: value.if_less(bound, then.z, otherwise.z),
+        }
+    }
+}
+
+impl<L: Lane> Add for Vector<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl<L: Lane> AddAssign for Vector<L> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<L: Lane> Sub for Vector<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+impl<L: Lane> Neg for Vector<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { x: -self.x, y: -self.y, z: -self.z }
+    }
+}
+
+impl<L: Lane> Mul<L> for Vector<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: L) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_do_what_one_does_to_the_bit() {
+        let a = [1.5, -0.0, 2.0 / 3.0, 3e300];
+        let b = [0.1, 0.5, 1.0, -7.0];
+        let one = |f: fn(f64, f64) -> f64| [0, 1, 2, 3].map(|k| f(a[k], b[k]).to_bits());
+        let four = |f: fn(Four, Four) -> Four| {
+            f(Four::pack(&a, |v| *v), Four::pack(&b, |v| *v)).unpack().map(f64::to_bits)
+        };
+        assert_eq!(one(|a, b| a * b + a / b - b), four(|a, b| a * b + a / b - b));
+        assert_eq!(one(|a, b| Lane::least(a, b)), four(|a, b| a.least(b)));
+        assert_eq!(one(|a, b| Lane::most(b, a)), four(|a, b| b.most(a)));
+        assert_eq!(one(|a, b| Lane::sqrt(a * a + b)), four(|a, b| (a * a + b).sqrt()));
+        assert_eq!(one(|a, b| a.if_less(b, -a, b)), four(|a, b| a.if_less(b, -a, b)));
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_the_other() {
+        let (nan, two) = (Four::splat(f64::NAN), Four::splat(2.0));
+        assert_eq!((nan.least(two), nan.most(two)), (two, two));
+        assert_eq!((Lane::least(f64::NAN, 2.0), Lane::most(f64::NAN, 2.0)), (2.0, 2.0));
+    }
+}
