@@ -22,11 +22,28 @@ pub struct Move {
     pub volume: f64,
 }
 
+/// A [`Ledger`] as plain numbers, to be stored.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LedgerParts {
+    /// Films on the particles by id, m³.
+    pub films: Vec<f64>,
+    /// Films on the wall elements, m³.
+    pub walls: Vec<f64>,
+    /// Bridges by account, m³.
+    pub bridges: Vec<f64>,
+    /// Bridge accounts that are closed.
+    pub free: Vec<u32>,
+    /// Volume that left the scene, m³.
+    pub drained: f64,
+    /// Volume at the start, m³.
+    pub initial: f64,
+}
+
 /// The account of all liquid in a scene, m³.
 ///
 /// Volumes change in [`Ledger::book`] alone. Whatever is booked, no account becomes negative and
 /// the total stays what it was, to rounding.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ledger {
     films: Vec<f64>,
     walls: Vec<f64>,
@@ -43,6 +60,23 @@ impl Ledger {
         let mut ledger = Self { films, walls: vec![0.0; elements], ..Self::default() };
         ledger.initial = ledger.total();
         ledger
+    }
+
+    /// A ledger as plain numbers: films, walls, bridges, closed bridge accounts, and the drained and
+    /// initial volume, m³.
+    #[must_use]
+    pub fn parts(&self) -> LedgerParts {
+        let (films, walls, bridges) =
+            (self.films.clone(), self.walls.clone(), self.bridges.clone());
+        let (drained, initial) = (self.drained, self.initial);
+        LedgerParts { films, walls, bridges, free: self.free.clone(), drained, initial }
+    }
+
+    /// The ledger of such numbers.
+    #[must_use]
+    pub fn from_parts(parts: LedgerParts) -> Self {
+        let LedgerParts { films, walls, bridges, free, drained, initial } = parts;
+        Self { films, walls, bridges, drained, free, initial }
     }
 
     /// Volume of an account, m³; 0 for one that does not exist.

@@ -14,7 +14,7 @@ mod wet;
 
 pub use adapters::MeshWalls;
 pub use laws::{Liquid, NoDrag, PairLaws};
-pub use ledger::{Account, Ledger, Move};
+pub use ledger::{Account, Ledger, LedgerParts, Move};
 pub use pendular_capillary as capillary;
 pub use pendular_contact as contact;
 pub use pendular_dem_core as dem;
@@ -23,4 +23,6 @@ pub use pendular_pair as pair;
 pub use pendular_transfer as transfer;
 pub use pendular_walls as walls;
 pub use split::SplitMethod;
-pub use wet::{Bodies, Counts, Hold, LiveBridge, WallElement, Wet, WetError};
+pub use wet::{
+    Bodies, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError, WetState,
+};

@@ -1,3 +1,5 @@
+mod state;
+
 use pendular_capillary::{CapillaryLaw, ForceCurve};
 use pendular_dem_core::{
     Class, DVec3, Encounter, Load, Pair, PairTerm, Partner, StabilityLoad, TermError, Visit,
@@ -12,6 +14,8 @@ use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
 
 /// Smallest V* of a bridge where no other is asked for.
 const SMALLEST_V_STAR: f64 = 1e-9;
+pub use state::{LiveState, WetState};
+
 /// No bridge.
 const DRY: u32 = u32::MAX;
 
@@ -155,7 +159,8 @@ pub struct Wet<C, N, S> {
     counts: Counts,
 }
 
-type Column<C, N, S> =
+/// What [`Wet`] remembers of one pair.
+pub type Column<C, N, S> =
     Hold<<C as CapillaryLaw>::Curve, <N as NormalDrag>::Curve, <S as TangentialDrag>::Curve>;
 
 impl<C, N, S> Wet<C, N, S>
@@ -271,11 +276,7 @@ where
     /// # Errors
     /// [`OutOfRange`] as when the bridge formed; it has formed, so that does not happen.
     pub fn tension(&self, live: &LiveBridge, gap: f64) -> Result<f64, OutOfRange> {
-        let laws = match live.second {
-            Partner::Particle(_) => &self.between,
-            Partner::Wall(_) => &self.with_walls,
-        };
-        laws.capillary.force(&live.bridge, gap, self.range)
+        self.laws(live.second).capillary.force(&live.bridge, gap, self.range)
     }
 
     /// Class of a particle, also of one that has left.
@@ -370,38 +371,51 @@ where
         let volume = self.ledger.volume(Account::Bridge(account));
         let (first, second) = (encounter.first, encounter.second);
         let refuse = |source| WetError::Law { first, second, volume, source };
-        let (laws, mate) = match second {
-            Partner::Particle(id) => (&self.between, Mate::Sphere { radius: self.radius(id) }),
-            Partner::Wall(part) => {
-                let half_side = self.bodies.half_sides[part as usize];
-                (&self.with_walls, Mate::Wall { half_side })
-            }
+        let mate = match second {
+            Partner::Particle(id) => Mate::Sphere { radius: self.radius(id) },
+            Partner::Wall(part) => Mate::Wall { half_side: self.bodies.half_sides[part as usize] },
         };
         let angles = self.contact_angles(encounter);
         let tension = self.liquid.surface_tension;
         let bridge =
             Bridge::new(self.radius(first), mate, volume, angles, tension).map_err(refuse)?;
-        let strange = laws.capillary.validity().check(&bridge).is_err()
-            || laws.rupture.validity().check(&bridge).is_err();
-        let viscosity = self.liquid.viscosity;
-        let hold = Hold {
-            bridge: account,
-            rupture: laws.rupture.distance(&bridge, self.range).map_err(refuse)?,
-            reduced_radius: bridge.reduced_radius(),
-            dynamic: laws.dynamic.curve(&bridge).map_err(refuse)?,
-            curves: Some((
-                laws.capillary.curve(&bridge, self.range).map_err(refuse)?,
-                laws.normal.curve(&bridge, viscosity).map_err(refuse)?,
-                laws.tangential.curve(&bridge, viscosity).map_err(refuse)?,
-            )),
-        };
         let split = self.splits.of(&bridge);
         let (split, extrapolated) =
             split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
+        let live = LiveBridge { bridge, split, first, second };
+        let hold = self.hold(account, &live).map_err(refuse)?;
+        let laws = self.laws(second);
+        let strange = laws.capillary.validity().check(&bridge).is_err()
+            || laws.rupture.validity().check(&bridge).is_err();
         self.counts.extrapolated += u64::from(strange || extrapolated);
         self.live.resize((account as usize + 1).max(self.live.len()), None);
-        self.live[account as usize] = Some(LiveBridge { bridge, split, first, second });
+        self.live[account as usize] = Some(live);
         Ok(hold)
+    }
+
+    /// The laws of the bridges with a body.
+    fn laws(&self, second: Partner) -> &PairLaws<C, N, S> {
+        match second {
+            Partner::Particle(_) => &self.between,
+            Partner::Wall(_) => &self.with_walls,
+        }
+    }
+
+    /// What a pair remembers of its bridge.
+    fn hold(&self, account: u32, live: &LiveBridge) -> Result<Column<C, N, S>, OutOfRange> {
+        let (laws, bridge) = (self.laws(live.second), &live.bridge);
+        let viscosity = self.liquid.viscosity;
+        Ok(Hold {
+            bridge: account,
+            rupture: laws.rupture.distance(bridge, self.range)?,
+            reduced_radius: bridge.reduced_radius(),
+            dynamic: laws.dynamic.curve(bridge)?,
+            curves: Some((
+                laws.capillary.curve(bridge, self.range)?,
+                laws.normal.curve(bridge, viscosity)?,
+                laws.tangential.curve(bridge, viscosity)?,
+            )),
+        })
     }
 
     /// Brings the film thickness of an account up to date.
