@@ -26,6 +26,26 @@ pub struct Spring<M> {
     memory: M,
 }
 
+impl<M: Copy> Spring<M> {
+    /// A spring stretched by ξ m, with the normal law's memory.
+    #[must_use]
+    pub fn new(stretch: DVec3, memory: M) -> Self {
+        Self { stretch, memory }
+    }
+
+    /// Stretch ξ of the tangential spring, m.
+    #[must_use]
+    pub fn stretch(&self) -> DVec3 {
+        self.stretch
+    }
+
+    /// What the normal law remembers.
+    #[must_use]
+    pub fn memory(&self) -> M {
+        self.memory
+    }
+}
+
 type Rule<N> = Box<dyn Fn(u16, Partner) -> PairContact<N> + Send + Sync>;
 
 #[derive(Clone, Copy)]
