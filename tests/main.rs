@@ -9,5 +9,6 @@ mod liquid;
 mod mesh_walls;
 mod pull_off;
 mod rig;
+mod seeds;
 mod wet_pair;
 mod young_laplace;
