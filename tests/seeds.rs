@@ -284,7 +284,7 @@ fn the_reference_bridges_are_the_thirteen_cases_of_gladkyy_and_two_planes() {
 
 /// Measured points of W11 against the exact bridge: off by at most 2.4 % of 2 π R σ (rms), the
 /// scatter that the file states. Point by point four of the five lie within 5 % of the force or
-/// 2 % of 2 π R σ; that at 22.8 µm, where the force is steep, is 7.7 % low: 4 µm of the gap.
+/// 2 % of 2 π R σ; that at 22.8 µm, where the force is steep, is 7.7 % low: between 4 and 5 µm of gap.
 #[test]
 fn the_measured_points_of_willett_lie_around_the_exact_bridge() {
     let cases = rig::table("g14_table1.csv");
@@ -304,7 +304,7 @@ fn the_measured_points_of_willett_lie_around_the_exact_bridge() {
             squares += off * off;
             if off.abs() > (0.05 * exact(gap)).max(0.02 * contact) {
                 outside.push(gap);
-                assert!(measured > exact(gap + 4e-6) && measured < exact(gap - 4e-6));
+                assert!(measured > exact(gap + 5e-6) && measured < exact(gap + 4e-6));
             }
         }
         assert_eq!(outside, [22.8e-6], "{law}");
