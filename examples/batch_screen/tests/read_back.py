@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads the ParaView series of a folder with VTK itself and checks them.
 
-    pip install vtk
+    pip install vtk numpy
     python3 read_back.py FOLDER
 
 FOLDER holds particles.pvd, bridges.pvd and walls.pvd. Checked for every frame: the file reads
@@ -13,12 +13,12 @@ the number of particles is. Exit code: 0 if all is well, 1 on a mismatch, 2 on w
 
 import csv
 import json
-import math
 import os
 import sys
 import xml.etree.ElementTree as ElementTree
 
 try:
+    import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkCommand
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -79,16 +79,15 @@ def columns(path, series, data):
               f"{path}: {array.GetNumberOfTuples()} of {name} for {entries}")
         found[name] = vtk_to_numpy(array)
     points = data.GetPoints()
-    found["position"] = vtk_to_numpy(points.GetData()).reshape(-1, 3) if points else []
+    found["position"] = vtk_to_numpy(points.GetData()).reshape(-1, 3) if points else numpy.zeros((0, 3))
     for name, values in found.items():
-        check(all(math.isfinite(v) for v in getattr(values, "flat", values)),
-              f"{path}: {name} is not finite somewhere")
+        check(numpy.isfinite(values).all(), f"{path}: {name} is not finite somewhere")
     cells = {1: data.GetVerts, 2: data.GetLines, 3: data.GetPolys}[corners]()
     check(cells.GetNumberOfCells() == data.GetNumberOfCells(), f"{path}: other cells than expected")
     connectivity = vtk_to_numpy(cells.GetConnectivityArray())
     check(len(connectivity) == corners * cells.GetNumberOfCells(), f"{path}: corners of cells")
-    check(all(0 <= k < data.GetNumberOfPoints() for k in connectivity),
-          f"{path}: a cell names a point that is not there")
+    inside = (connectivity >= 0) & (connectivity < data.GetNumberOfPoints())
+    check(inside.all(), f"{path}: a cell names a point that is not there")
     found["cells"] = connectivity
     return found
 
@@ -96,11 +95,10 @@ def columns(path, series, data):
 def compare(path, found, expected):
     for name, values in expected.items():
         flat = [v for row in values for v in (row if isinstance(row, list) else [row])]
-        array = found["cells" if name == "triangles" else name]
-        numbers = list(getattr(array, "flat", array))
+        numbers = found["cells" if name == "triangles" else name].ravel().tolist()
         check(len(flat) == len(numbers), f"{path}: {len(numbers)} of {name}, not {len(flat)}")
         for index, (a, b) in enumerate(zip(numbers, flat)):
-            close = a == b if isinstance(b, int) else abs(float(a) - b) <= 6e-8 * abs(b)
+            close = a == b if isinstance(b, int) else abs(a - b) <= 6e-8 * abs(b)
             check(close, f"{path}: {name}, number {index}, is {a}, not {b}")
 
 

@@ -77,12 +77,13 @@ function frame(host, spec, x, y) {
     right: wide && words ? Math.ceil(16 + words) : 14,
     top: 30, bottom: 40, width, height, wide,
   };
-  const inner = [width - box.left - box.right, height - box.top - box.bottom];
+  if (spec.square) box.height = width - box.left - box.right + box.top + box.bottom;
+  const inner = [width - box.left - box.right, box.height - box.top - box.bottom];
   const sx = (v) => box.left + ((v - x[0]) / (x[1] - x[0] || 1)) * inner[0];
   const lift = spec.log ? Math.log10 : (v) => v;
-  const sy = (v) => height - box.bottom - ((lift(v) - lift(y[0])) / (lift(y[1]) - lift(y[0]) || 1)) * inner[1];
+  const sy = (v) => box.height - box.bottom - ((lift(v) - lift(y[0])) / (lift(y[1]) - lift(y[0]) || 1)) * inner[1];
   const root = svg('svg', {
-    viewBox: `0 0 ${width} ${height}`, width, height, role: 'img', tabindex: 0,
+    viewBox: `0 0 ${width} ${box.height}`, width, height: box.height, role: 'img', tabindex: 0,
     'aria-label': `${spec.title}: ${spec.y} against ${spec.x}.${spec.square ? '' : ' Arrow keys read values.'}`,
   });
   for (const v of yTicks) {
@@ -95,16 +96,16 @@ function frame(host, spec, x, y) {
   for (const v of ticks(...x, inner[0] / (wide ? 84 : 64))) {
     const at = Math.round(sx(v)) + 0.5;
     root.append(
-      svg('line', { x1: at, x2: at, y1: height - box.bottom, y2: height - box.bottom + 5, class: 'axis' }),
-      svg('text', { x: at, y: height - box.bottom + 18, class: 'tick', 'text-anchor': 'middle' }, num(v, 6)),
+      svg('line', { x1: at, x2: at, y1: box.height - box.bottom, y2: box.height - box.bottom + 5, class: 'axis' }),
+      svg('text', { x: at, y: box.height - box.bottom + 18, class: 'tick', 'text-anchor': 'middle' }, num(v, 6)),
     );
   }
   root.append(
     svg('line', {
-      x1: box.left, x2: width - box.right, y1: height - box.bottom + 0.5, y2: height - box.bottom + 0.5, class: 'axis',
+      x1: box.left, x2: width - box.right, y1: box.height - box.bottom + 0.5, y2: box.height - box.bottom + 0.5, class: 'axis',
     }),
     svg('text', { x: 2, y: 14, class: 'name' }, spec.y),
-    svg('text', { x: width - box.right, y: height - 5, class: 'name', 'text-anchor': 'end' }, spec.x),
+    svg('text', { x: width - box.right, y: box.height - 5, class: 'name', 'text-anchor': 'end' }, spec.x),
   );
   return { root, box, sx, sy };
 }
@@ -235,7 +236,7 @@ function linePath(s, sx, sy) {
 // A chart of lines. spec: { title, x, y, series: [{ name, x, y, color, dash, mark, width, step }],
 // from, to, percent, log, verticals: [{ x, text }], tall, points }.
 function lineChart(host, spec) {
-  const series = spec.series.filter((s) => s.x.length);
+  const series = spec.series.filter((s) => s.y.some(Number.isFinite));
   if (!series.length) return;
   const x = spec.across || range(series.map((s) => s.x));
   let y = range(series.map((s) => (spec.log ? s.y.filter((v) => v > 0) : s.y)));
@@ -243,7 +244,7 @@ function lineChart(host, spec) {
     y = [10 ** Math.floor(Math.log10(y[0])), 10 ** Math.ceil(Math.log10(y[1]))];
   } else {
     const from = spec.from === undefined ? Math.min(0, y[0]) : spec.from;
-    const to = spec.to === undefined ? y[1] + 0.06 * (y[1] - from || 1) : spec.to;
+    const to = spec.to === undefined ? (y[1] > from ? y[1] + 0.06 * (y[1] - from) : from + 1) : spec.to;
     y = [from, to];
   }
   const labelled = series.filter((s) => !s.quiet);

@@ -20,7 +20,8 @@ function overlaid(runs, of) {
 
 function overlayFigure(title, note, runs, of, spec, wide) {
   const series = overlaid(runs, of);
-  return series.length ? figure(title, note, (host) => lineChart(host, { title, ...TIME, ...spec, series }), wide) : null;
+  const to = spec.to && { to: ceiling(series) };
+  return series.length ? figure(title, note, (host) => lineChart(host, { title, ...TIME, ...spec, ...to, series }), wide) : null;
 }
 
 function resultsTable(runs, names) {
@@ -115,9 +116,13 @@ function comparePage(data) {
 {
   const data = JSON.parse(document.getElementById('data').textContent);
   const host = document.getElementById('page');
-  const parts = data.kind === 'compare' ? comparePage(data) : reportPage(data);
-  host.replaceChildren(...parts.filter(Boolean));
-  for (const node of host.querySelectorAll('.charts > *')) if (!node.hasChildNodes()) node.remove();
+  try {
+    const parts = data.kind === 'compare' ? comparePage(data) : reportPage(data);
+    host.replaceChildren(...parts.filter(Boolean));
+  } catch (error) {
+    host.append(el('p', { class: 'lead' }, `This page could not be drawn: ${error.message}. The numbers are in the tables beside this file.`));
+    throw error;
+  }
   // Canvases take their colours when they are drawn: once more when light turns dark.
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
     for (const node of host.children) if (node.redraw) node.redraw();

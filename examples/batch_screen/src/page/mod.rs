@@ -102,7 +102,7 @@ fn page(kind: &str, title: &str, runs: &[&Run]) -> String {
          <noscript><p>The charts of this page are drawn by a small program inside it: let scripts run \
          to see them. The numbers are in the tables beside this file.</p></noscript></main>\n\
          <script type=\"application/json\" id=\"data\">{data}</script>\n\
-         <script>\n'use strict';\n{program}</script>\n</body>\n</html>\n"
+         <script>\n(() => {{\n'use strict';\n{program}}})();\n</script>\n</body>\n</html>\n"
     )
 }
 

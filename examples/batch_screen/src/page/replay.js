@@ -269,7 +269,7 @@ function replaySection(run) {
     if (!both) return;
     const column = both >= 700 ? (both - 28) / 2 : both;
     const span = (axis) => packed.bounds[axis][1] - packed.bounds[axis][0] + 2 * replay.margin;
-    const scale = Math.min((column - 56) / span(0), 560 / Math.max(span(1), span(2)));
+    const scale = Math.min((column - 56) / span(0), 640 / Math.max(span(1), span(2)));
     const sharp = Math.min(2, window.devicePixelRatio || 1);
     for (const view of views) view.resize(scale, sharp);
     state.sprites = null;
@@ -283,7 +283,7 @@ function replaySection(run) {
       resize();
     }
   }).observe(host);
-  const node = section('Replay', 'Spheres above the screen at some moments; the dashed line of the side view is the height of the wires at rest. Between two moments the screen has shaken several times: this is a series of pictures, not a film.',
+  const node = section('Replay', 'The spheres not yet collected at some moments; the dashed line of the side view is the height of the wires at rest. Between two moments the screen has shaken several times: this is a series of pictures, not a film.',
     controls, key, host);
   node.redraw = () => { state.sprites = null; draw(); };
   return node;

@@ -14,12 +14,15 @@ function head(run, program) {
   const [first, now] = ['particles_above'].map((name) => retained.column(name)).flatMap((c) => [c[0], c[last]]);
   const total = retained.column('total')[last];
   const time = retained.column('time_s')[last];
+  const sum = (object) => (object && typeof object === 'object' ? Object.values(object).reduce((a, b) => a + b, 0) : NaN);
+  const passed = sum(s.passed);
+  const gone = `${count(first - now)} of ${count(first)} spheres lay in the collecting bin`;
   const sentence = retained.rows
-    ? `After ${num(time)} s, ${count(first - now)} of ${count(first)} spheres had left the screen, and ${percent(total)} of the mass was still on it.`
+    ? `After ${num(time)} s, ${passed > first - now ? `${count(passed)} spheres had passed the screen, ` : ''}${gone}, and ${percent(total)} of the mass was retained.`
     : 'The run has no rows yet.';
   const tile = (value, text) => el('div', { class: 'tile' }, el('b', {}, value), el('span', {}, text));
   const tiles = [];
-  if (retained.rows) tiles.push(tile(percent(total), 'of the mass retained'), tile(count(now), 'spheres above'));
+  if (retained.rows) tiles.push(tile(percent(total), 'of the mass retained'), tile(count(now), 'spheres not collected'));
   const bridges = s.bridges || {};
   if (typeof bridges.formed === 'number') tiles.push(tile(count(bridges.formed), 'bridges formed'));
   if (s.derived && typeof s.derived.liquid_m3 === 'number' && s.derived.liquid_m3 > 0) tiles.push(tile(told(s.derived.liquid_m3, 'm³'), 'liquid'));
@@ -48,9 +51,9 @@ function sceneSection(run) {
   const blocks = [];
   const block = (title, note, body) => blocks.push(el('div', { class: 'block' }, el('h3', {}, title), note ? el('p', {}, note) : null, body));
   const derived = { ...(summary.derived || {}) };
-  for (const key of ['steps', 'threads', 'largest_overlap', 'escaped']) {
-    if (key in summary) derived[key] = summary[key];
-  }
+  const shown = { steps: 'steps', threads: 'threads', escaped: 'spheres lost in other ways' };
+  for (const [key, label] of Object.entries(shown)) if (key in summary) derived[label] = summary[key];
+  if (typeof summary.largest_overlap === 'number') derived['largest overlap, share of a radius'] = percent(summary.largest_overlap);
   if (Object.keys(derived).length) block('What follows from the scene', null, facts(derived, orderOf(run)));
   const assumptions = summary.assumptions;
   if (assumptions && typeof assumptions === 'object' && Object.keys(assumptions).length) {
@@ -67,12 +70,15 @@ function classSeries(run, source, column = (name) => source.column(name)) {
   return run.classes.map((c, k) => ({ name: c.name, x: at, y: column(c.name), ...look(k) })).filter((s) => s.y);
 }
 
+// Above a class that took up liquid, more than its first mass can be retained.
+const ceiling = (series) => 1.02 * Math.max(1, ...series.map((s) => range([s.y])[1]));
+
 function retainedFigure(run) {
   const t = table(run.tables.retained);
   const series = [{ name: 'total', x: t.column('time_s'), y: t.column('total'), ...TOTAL }, ...classSeries(run, t)];
   const title = 'Fraction retained';
-  return figure(title, 'Mass above the screen over the mass at the start: in all, and of each class.',
-    (host) => lineChart(host, { title, ...TIME, y: 'retained, %', percent: true, from: 0, to: 1.02, series, tall: 380 }), true);
+  return figure(title, 'Mass that is not in the collecting bin over the mass at the start: of everything, and of each class with its films.',
+    (host) => lineChart(host, { title, ...TIME, y: 'retained, %', percent: true, from: 0, to: ceiling(series), series, tall: 380 }), true);
 }
 
 // Passages per second in bins of a round width.
@@ -135,7 +141,7 @@ function trompFigure(run) {
   const verticals = Number.isFinite(cut) ? [{ x: cut, text: `cut size ${num(cut, 3)} mm` }] : [];
   const imperfection = get('imperfection');
   const title = 'Partition (Tromp) curve';
-  const note = `Probability of having passed against diameter${Number.isFinite(imperfection) ? `; imperfection ${num(imperfection, 3)}` : ''}${Number.isFinite(cut) ? '' : '; the cut size is not defined: no class is near one half'}.`;
+  const note = `Probability of having passed against diameter${Number.isFinite(imperfection) ? `; imperfection ${num(imperfection, 3)}` : ''}${Number.isFinite(cut) ? '' : '; no cut size: the curve does not cross one half'}.`;
   return figure(title, note, (host) => lineChart(host, {
     title, x: 'diameter, mm', xUnit: 'mm', y: 'passed, %', percent: true, from: 0, to: 1.02, points: true, verticals, series,
   }));
@@ -152,8 +158,8 @@ function liquidBands(run, t, factor) {
     const values = times(t.column(name), factor);
     const of = run.classes.findIndex((c) => short === `above ${c.name}` || short === `fines ${c.name}`);
     if (short === 'bridges') bands.push({ name: 'in bridges', values, color: 'var(--bridge)', kind: 'cross', rank: 1 });
-    else if (of >= 0 && short.startsWith('above ')) bands.push({ name: `above ${run.classes[of].name}`, values, color: `var(--c${of % 8})`, kind: 'plain', rank: 0 });
-    else if (of >= 0 || short === 'fines') bands.push({ name: of >= 0 ? short.replace('fines', 'passed') : 'on fines', values, color: of >= 0 ? `var(--c${of % 8})` : 'var(--soft)', kind: 'hatch', rank: 3 });
+    else if (of >= 0 && short.startsWith('above ')) bands.push({ name: `on ${run.classes[of].name}`, values, color: `var(--c${of % 8})`, kind: 'plain', rank: 0 });
+    else if (of >= 0 || short === 'fines') bands.push({ name: of >= 0 ? `gone with ${run.classes[of].name}` : 'gone with fines', values, color: of >= 0 ? `var(--c${of % 8})` : 'var(--soft)', kind: 'hatch', rank: 3 });
     else {
       bands.push({ name: short, values, color: walls[wall % walls.length], kind: wall % 2 ? 'bars' : 'dots', rank: 2 });
       wall += 1;
@@ -171,7 +177,7 @@ function liquidFigure(run) {
   const bands = liquidBands(run, t, 1 / factor);
   if (!bands.length) return null;
   const title = 'Where the liquid is';
-  return figure(title, 'Plain: on spheres above; crossed: in bridges; dotted and barred: on walls; hatched: gone with spheres that passed.',
+  return figure(title, 'Plain: on spheres not collected; crossed: in bridges; dotted and barred: on walls; hatched: gone with collected spheres.',
     (host) => stackChart(host, { title, ...TIME, y: `liquid, ${unit}`, at: t.column('time_s'), bands, tall: 400 }), true);
 }
 
@@ -197,6 +203,7 @@ function peggingFigure(run) {
   if (!t || t.rows < 2) return null;
   const x = t.column('time_s');
   const all = t.column('apertures');
+  if (all && !all.some((v) => v > 0)) return null;
   const share = (column) => Float32Array.from(column, (v, k) => (all ? v / all[k] : v));
   const series = [];
   if (t.column('blocked')) series.push({ name: 'blocked', x, y: share(t.column('blocked')), ...TOTAL });
@@ -211,6 +218,7 @@ function energyFigure(run) {
   if (!t || t.rows < 2) return null;
   const names = t.names.filter((name) => name !== 'time_s');
   const columns = names.map((name) => t.column(name));
+  if (!columns.some((column) => column.some(Number.isFinite))) return null;
   const [low, high] = range(columns);
   const joules = names.every((name) => /_j$/i.test(name));
   const [factor, unit] = joules ? scaleOf('J', Math.max(Math.abs(low), Math.abs(high))) : [1, ''];
@@ -218,7 +226,7 @@ function energyFigure(run) {
     name: joules ? named(name).label : name.replaceAll('_', ' '), x: t.column('time_s'), y: times(columns[k], 1 / factor), ...look(k),
   }));
   const title = 'Energy';
-  return figure(title, 'Of the spheres above the screen.', (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
+  return figure(title, 'Of the spheres not collected.', (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
 }
 
 // Where spheres passed, seen from above.
@@ -283,14 +291,20 @@ function finalSection(run) {
   };
   const t = table(run.tables.retained);
   const lastOf = (name) => (t.rows && t.column(name) ? t.column(name)[t.rows - 1] : NaN);
-  const rows = run.classes.map((c) => [c.name, c.diameter_mm, started(c), of(s.above, c.name), of(s.passed, c.name),
-    of(of(s.fraction_retained, 'by_class'), c.name) ?? lastOf(c.name), of(of(s.liquid_m3, 'above'), c.name)]);
-  const sum = (k) => (rows.every((row) => typeof row[k] === 'number') ? rows.reduce((a, row) => a + row[k], 0) : undefined);
-  const wet = rows.some((row) => row[6] > 0);
-  const line = ([name, d, n, above, passed, y, film]) => [name, d ? num(d) : '–', count(n), count(above), count(passed), percent(y, 4),
-    ...(wet ? [num(film * 1e9)] : [])];
-  const total = ['all', undefined, sum(2), sum(3), sum(4), of(s.fraction_retained, 'total') ?? lastOf('total'), sum(6)];
-  const parts = [grid(['class', 'diameter, mm', 'at the start', 'above', 'passed', 'mass retained', ...(wet ? ['liquid above, µl'] : [])], rows.map(line), line(total))];
+  const columns = [
+    ['at the start', started, count],
+    ['passed the screen', (c) => of(s.passed, c.name), count],
+    ['collected', (c) => of(s.collected, c.name), count],
+    ['not collected', (c) => of(s.above, c.name), count],
+    ['liquid on these, µl', (c) => 1e9 * of(of(s.liquid_m3, 'above'), c.name), num],
+  ].map(([name, get, text]) => [name, run.classes.map(get), text])
+    .filter(([, values]) => values.some((v) => v >= 0) && values.every(Number.isFinite));
+  const retained = (c) => of(of(s.fraction_retained, 'by_class'), c.name) ?? lastOf(c.name);
+  const rows = run.classes.map((c, k) => [c.name, c.diameter_mm ? num(c.diameter_mm) : '–',
+    ...columns.map(([, values, text]) => text(values[k])), percent(retained(c), 4)]);
+  const all = ['all', '', ...columns.map(([, values, text]) => text(values.reduce((a, b) => a + b, 0))),
+    percent(of(s.fraction_retained, 'total') ?? lastOf('total'), 4)];
+  const parts = [grid(['class', 'diameter, mm', ...columns.map(([name]) => name), 'mass retained'], rows, all)];
   const budget = budgetTable(s.budget, orderOf(run));
   if (budget) parts.push(el('h3', {}, 'Physics budget'), budget);
   return section('At the end', null, parts);
