@@ -1,12 +1,12 @@
 //! Where the liquid is: whatever forms, breaks, leaves or is taken away, none of it is lost.
 
 use pendular::{Account, Ledger, MeshWalls, Move, SplitMethod, Wet};
-use pendular_capillary::AnyCapillary;
+use pendular_capillary::{AnyCapillary, CapillaryLaw};
 use pendular_dem_core::{
     Boundary, Class, DVec3, NoWalls, PairTerm, Particles, Settings, Simulation,
 };
 use pendular_lubrication::{AnyNormalDrag, AnyTangentialDrag, Gap, NormalModel, TangentialModel};
-use pendular_pair::Mate;
+use pendular_pair::{Bridge, Mate, Range};
 use pendular_transfer::{Split, film, formation};
 use pendular_walls::{Harmonic, Mesh, Motion, Part, Plane, Shape, Walls, Wire, build};
 use rand_pcg::Pcg64;
@@ -440,4 +440,49 @@ fn a_bridge_that_moved_on_breaks_over_its_last_triangle() {
     let parts = area(foot, a, b) + area(foot, b, c) + area(foot, c, a);
     assert!((parts / area(a, b, c) - 1.0).abs() < 1e-9, "{foot} is not in {a} {b} {c}");
     assert!(ledger.imbalance().abs() < 1e-14);
+}
+
+/// A sphere drifts from the floor of a box to its side: one bridge with the part, always at the
+/// nearest surface, handed on where the side becomes nearer, with its volume.
+#[test]
+fn a_bridge_is_handed_on_from_the_floor_to_the_side_of_a_part() {
+    let r = 1e-3;
+    // So heavy that the liquid hardly bends the path.
+    let class = Class::new(r, 1e7, 0).unwrap();
+    let mut particles = Particles::new(vec![class]).unwrap();
+    let side = 10e-3;
+    let (low, high) = (DVec3::new(0.0, -6e-3, 0.0), DVec3::new(side, 6e-3, 8e-3));
+    let tray = build::open_box(low, high, true, 2.5e-3).unwrap();
+    let walls = Walls::new(vec![Part::new("box", Shape::Mesh(tray))]).unwrap();
+    let start = DVec3::new(side - r - 3e-4, 2.3e-4, r);
+    let velocity = 0.05 * DVec3::new(1.0, 0.0, 1.0);
+    particles.push(0, start, velocity, DVec3::ZERO).unwrap();
+    let bodies = rig::bodies(&particles, Some(&walls));
+    let laws = rig::static_laws(AnyCapillary::Lambert);
+    let liquid = rig::liquid(0.07, 1e-3, 0.3);
+    let wet = rig::wet(liquid, laws, bodies, vec![4e-10], SplitMethod::Half);
+    let h = 1e-5;
+    let settings = rig::weightless(h);
+    let mut simulation = Simulation::new(particles, wet, MeshWalls(walls), settings).unwrap();
+    simulation.advance(1).unwrap();
+    let volume = simulation.term().ledger().in_bridges();
+    let bridge = Bridge::new(r, Mate::PLANE, volume, [0.3; 2], 0.07).unwrap();
+    let range = Range::Extrapolate;
+    let mut seen = [0, 0];
+    for _ in 0..500 {
+        let before = rig::at(&simulation, 0);
+        simulation.advance(1).unwrap();
+        let after = rig::at(&simulation, 0);
+        let gaps = [before.position.z - r, side - before.position.x - r];
+        let to = usize::from(gaps[1] < gaps[0]);
+        seen[to] += 1;
+        let towards = [DVec3::NEG_Z, DVec3::X][to];
+        let pull = AnyCapillary::Lambert.force(&bridge, gaps[to], range).unwrap();
+        let felt = class.mass() / h * (after.velocity - before.velocity);
+        assert!((felt - pull * towards).length() < 1e-6 * pull, "{gaps:?}: {felt} {pull:e}");
+        let wet = simulation.term();
+        assert_eq!((wet.counts().formed, wet.counts().ruptured), (1, 0));
+        assert_eq!(wet.ledger().in_bridges(), volume);
+    }
+    assert!(seen[0] > 100 && seen[1] > 100, "{seen:?}");
 }
