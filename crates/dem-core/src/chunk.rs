@@ -69,8 +69,6 @@ pub(crate) struct Chunk<C> {
     pub(crate) sums: Vec<Sum>,
     pub(crate) rolls: Vec<Roll>,
     pub(crate) notes: Vec<Note>,
-    /// Places of the pairs that act, in the list that is being read.
-    pub(crate) acting: Vec<u32>,
     pub(crate) touches: Vec<Touch>,
     pub(crate) memories: Vec<Memory<C>>,
     /// Largest overlap over the smaller radius so far.
@@ -91,7 +89,6 @@ impl<C: Copy + Default> Chunk<C> {
             sums: vec![Sum::default(); slots],
             rolls: vec![Roll::default(); if rolls { slots } else { 0 }],
             notes: Vec::new(),
-            acting: Vec::new(),
             touches: Vec::new(),
             memories: Vec::new(),
             overlap: 0.0,

@@ -35,8 +35,9 @@ pub struct Geometry<L> {
 }
 
 impl Geometry<f64> {
-    #[inline(always)]
-    pub(crate) fn of(pair: &Pair) -> Self {
+    /// Of a single pair.
+    #[must_use]
+    pub fn of(pair: &Pair) -> Self {
         let vector = |v: DVec3| Vector { x: v.x, y: v.y, z: v.z };
         Self {
             gap: pair.encounter.gap,
@@ -146,7 +147,9 @@ impl<L: Lane> Loads<L> {
 
 impl Loads<f64> {
     #[inline(always)]
-    pub(crate) fn single(self) -> Load {
+    /// The load of a single pair.
+    #[must_use]
+    pub fn single(self) -> Load {
         let vector = |v: Vector<f64>| DVec3::new(v.x, v.y, v.z);
         let (shear, couple) = (vector(self.shear), vector(self.couple));
         let rolling = vector(self.rolling);

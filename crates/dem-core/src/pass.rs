@@ -12,6 +12,9 @@ use crate::pairs::{Geometry, Pairs, Picked};
 use crate::particles::{Class, Particles, Place, Velocity};
 use crate::{Encounter, Load, Pair, PairTerm, Partner};
 
+/// Pairs that are looked at before those of them that act are loaded: few enough to stay near.
+const TILE: usize = 128;
+
 /// What all chunks read in one step.
 pub(crate) struct View<'a> {
     pub(crate) classes: &'a [Class],
@@ -108,10 +111,10 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
     chunk: &mut Chunk<T::Column>,
 ) {
     let start = Instant::now();
-    let Chunk { range, inside, across, sums, rolls, notes, acting, overlap, pair_time, .. } = chunk;
+    let Chunk { range, inside, across, sums, rolls, notes, overlap, pair_time, .. } = chunk;
     let mut out = Out { range, sums, rolls, notes, overlap };
-    list::<T, ROLLS, true>(view, term, inside, acting, &mut out);
-    list::<T, ROLLS, false>(view, term, across, acting, &mut out);
+    list::<T, ROLLS, true>(view, term, inside, &mut out);
+    list::<T, ROLLS, false>(view, term, across, &mut out);
     *pair_time += start.elapsed();
 }
 
@@ -131,36 +134,62 @@ fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
-    acting: &mut Vec<u32>,
     out: &mut Out<'_>,
 ) {
-    let count = pick(view, term, list, acting);
-    let acting = &acting[..count];
-    let (fours, rest) = if T::LANES { acting.as_chunks::<4>() } else { (&[][..], acting) };
-    for at in fours {
-        block::<T, Four, ROLLS, INSIDE>(view, term, list, at, out);
+    let mut acting = [0; TILE + 4];
+    let mut waiting = 0;
+    for start in (0..list.active.len()).step_by(TILE) {
+        let count = pick(view, term, list, start, &mut acting, waiting);
+        let (fours, rest) = acting[..count].as_chunks::<4>();
+        waiting = if T::LANES { rest.len() } else { 0 };
+        for at in fours {
+            if T::LANES {
+                block::<T, Four, ROLLS, INSIDE>(view, term, list, at, out);
+            } else {
+                singly::<T, ROLLS, INSIDE>(view, term, list, at, out);
+            }
+        }
+        if !T::LANES {
+            singly::<T, ROLLS, INSIDE>(view, term, list, rest, out);
+        }
+        // What makes no four waits for the next tile.
+        acting.copy_within(count - waiting..count, 0);
     }
-    for at in rest {
-        block::<T, f64, ROLLS, INSIDE>(view, term, list, std::slice::from_ref(at), out);
-    }
+    singly::<T, ROLLS, INSIDE>(view, term, list, &acting[..waiting], out);
 }
 
-/// Writes the places of all pairs that are not idle to the front of `acting`, without branching
-/// on what no processor can foresee.
+/// Writes the places of those pairs in a tile that are not idle behind the first `waiting` of
+/// `acting`, without branching on what no processor can foresee.
 #[inline(always)]
 fn pick<T: PairTerm>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
-    acting: &mut Vec<u32>,
+    start: usize,
+    acting: &mut [u32; TILE + 4],
+    waiting: usize,
 ) -> usize {
-    acting.resize(list.active.len(), 0);
-    let mut count = 0;
-    for (index, (&entry, column)) in list.active.iter().zip(&mut list.columns).enumerate() {
-        acting[count] = index as u32;
+    let end = list.active.len().min(start + TILE);
+    let tile = list.active[start..end].iter().zip(&mut list.columns[start..end]);
+    let mut count = waiting;
+    for (index, (&entry, column)) in tile.enumerate() {
+        acting[count] = (start + index) as u32;
         count += usize::from(!term.idle(&view.meet(entry), column));
     }
     count
+}
+
+#[inline(always)]
+fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
+    view: &View<'_>,
+    term: &T,
+    list: &mut PairList<T::Column>,
+    acting: &[u32],
+    out: &mut Out<'_>,
+) {
+    for at in acting {
+        block::<T, f64, ROLLS, INSIDE>(view, term, list, std::slice::from_ref(at), out);
+    }
 }
 
 #[inline(always)]

@@ -75,13 +75,17 @@ impl NormalCurve for AdamsPerchard1985Curve {
 
     #[inline]
     fn impulse(&self, gap: f64) -> f64 {
-        let Clearance { contact, floor, .. } = self.clearance;
+        let (contact, floor) = (self.clearance.contact, self.clearance.floor());
         if gap < 0.0 {
             return self.strength / contact * self.clearance.weight_integral(gap);
         }
         // ln(s/s(0)) where s changes, a constant coefficient below a cut-off
         let logarithm = ((gap - floor).max(0.0) / contact).min(f64::MAX).ln_1p();
         self.strength * (gap.min(floor) / contact + logarithm)
+    }
+
+    fn fade(&self) -> Option<f64> {
+        Some(self.clearance.fade())
     }
 }
 

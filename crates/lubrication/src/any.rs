@@ -149,6 +149,13 @@ impl NormalCurve for AnyNormalCurve {
             Self::Pitois2000(curve) => curve.impulse(gap),
         }
     }
+
+    fn fade(&self) -> Option<f64> {
+        match self {
+            Self::AdamsPerchard1985(curve) => curve.fade(),
+            Self::Pitois2000(curve) => curve.fade(),
+        }
+    }
 }
 
 impl TangentialCurve for AnyTangentialCurve {
@@ -159,6 +166,15 @@ impl TangentialCurve for AnyTangentialCurve {
             Self::Lian1998(curve) => curve.resistance(gap),
             Self::Goldman1967(curve) => curve.resistance(gap),
             Self::JeffreyOnishi1984(curve) => curve.resistance(gap),
+        }
+    }
+
+    fn fade(&self) -> Option<f64> {
+        match self {
+            Self::Popov2010(curve) => curve.fade(),
+            Self::Lian1998(curve) => curve.fade(),
+            Self::Goldman1967(curve) => curve.fade(),
+            Self::JeffreyOnishi1984(curve) => curve.fade(),
         }
     }
 }
@@ -183,5 +199,31 @@ mod tests {
     fn an_unknown_name_lists_the_known_ones() {
         let said = "adams".parse::<NormalModel>().unwrap_err().to_string();
         assert!(said.contains("\"adams\"") && said.contains("adams-perchard, pitois"), "{said}");
+    }
+
+    #[test]
+    fn every_law_fades_in_overlap_as_it_says() {
+        use crate::{Gap, Mate, Overlap};
+        let bridge =
+            Bridge::new(1e-3, Mate::Sphere { radius: 2e-3 }, 1e-11, [0.1; 2], 0.07).unwrap();
+        for overlap in [Overlap::Fade, Overlap::Full, Overlap::Off] {
+            let near = Regularisation { gap: Gap::Roughness { length: 2e-6 }, overlap };
+            for gap in [-1e-7, -2e-6, -1e-5] {
+                let same = |value: f64, at_contact: f64, fade: Option<f64>| {
+                    let faded = at_contact * (fade.unwrap() * gap).exp();
+                    assert!((value - faded).abs() <= 1e-13 * at_contact, "{overlap:?} {gap}");
+                };
+                for model in NormalModel::ALL {
+                    let curve = model.with(near).curve(&bridge, 1e-3).unwrap();
+                    same(curve.coefficient(gap), curve.coefficient(0.0), curve.fade());
+                }
+                for model in TangentialModel::ALL {
+                    let curve = model.with(near).curve(&bridge, 1e-3).unwrap();
+                    let (at, open) = (curve.resistance(gap), curve.resistance(0.0));
+                    same(at.slip, open.slip, curve.fade());
+                    same(at.rolling.abs(), open.rolling.abs(), curve.fade());
+                }
+            }
+        }
     }
 }

@@ -113,8 +113,8 @@ impl Regularisation {
 
     pub(crate) fn fold(&self, bridge: &Bridge) -> Result<Clearance, OutOfRange> {
         let contact = self.contact_clearance(bridge)?;
-        let floor = if matches!(self.gap, Gap::CutOff { .. }) { contact } else { 0.0 };
-        Ok(Clearance { contact, floor, added: contact - floor, overlap: self.overlap })
+        let cut_off = matches!(self.gap, Gap::CutOff { .. });
+        Ok(Clearance { contact, cut_off, overlap: self.overlap })
     }
 }
 
@@ -123,19 +123,25 @@ impl Regularisation {
 pub(crate) struct Clearance {
     /// s(0), m. Also the length of the fade.
     pub(crate) contact: f64,
-    /// s does not change below this gap, m.
-    pub(crate) floor: f64,
-    added: f64,
+    /// s is the gap, but at least s(0); else s(0) is added to the gap.
+    cut_off: bool,
     overlap: Overlap,
 }
 
 impl Clearance {
     /// The clearance s that stands for `gap`, m; positive.
+    #[inline]
     pub(crate) fn at(&self, gap: f64) -> f64 {
-        gap.max(self.floor) + self.added
+        if self.cut_off { gap.max(self.contact) } else { gap.max(0.0) + self.contact }
+    }
+
+    /// s does not change below this gap, m.
+    pub(crate) fn floor(&self) -> f64 {
+        if self.cut_off { self.contact } else { 0.0 }
     }
 
     /// Factor on the drag: 1 for gap ≥ 0.
+    #[inline]
     pub(crate) fn weight(&self, gap: f64) -> f64 {
         if gap >= 0.0 {
             return 1.0;
@@ -144,6 +150,15 @@ impl Clearance {
             Overlap::Fade => (gap / self.contact).exp(),
             Overlap::Full => 1.0,
             Overlap::Off => 0.0,
+        }
+    }
+
+    /// κ with weight = exp(κ gap) in overlap, 1/m.
+    pub(crate) fn fade(&self) -> f64 {
+        match self.overlap {
+            Overlap::Fade => 1.0 / self.contact,
+            Overlap::Full => 0.0,
+            Overlap::Off => f64::INFINITY,
         }
     }
 

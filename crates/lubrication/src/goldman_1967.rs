@@ -91,6 +91,13 @@ impl TangentialCurve for Goldman1967Curve {
             }
         }
     }
+
+    fn fade(&self) -> Option<f64> {
+        match &self.0 {
+            Kind::Spheres(curve) => curve.fade(),
+            Kind::Plane { clearance, .. } => Some(clearance.fade()),
+        }
+    }
 }
 
 #[cfg(test)]

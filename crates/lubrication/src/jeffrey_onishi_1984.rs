@@ -85,6 +85,10 @@ impl TangentialCurve for JeffreyOnishi1984Curve {
             rolling: self.factors.rolling * strength,
         }
     }
+
+    fn fade(&self) -> Option<f64> {
+        Some(self.clearance.fade())
+    }
 }
 
 #[cfg(test)]

@@ -18,6 +18,12 @@ pub trait NormalCurve: Copy {
     /// the force on the pair is −c_n dS/dt along the line of centres.
     fn coefficient(&self, gap: f64) -> f64;
 
+    /// The inverse length κ, 1/m, if in overlap the coefficient is `coefficient(0) exp(κ S)`, to
+    /// rounding; 0 for a constant, infinite for none. `None` if it is anything else.
+    fn fade(&self) -> Option<f64> {
+        None
+    }
+
     /// G(S) = ∫ c_n dS from gap 0 to `gap`, N s: the impulse that a slow change of the gap costs.
     fn impulse(&self, gap: f64) -> f64;
 }
@@ -38,6 +44,12 @@ pub trait TangentialDrag {
 pub trait TangentialCurve: Copy {
     /// Resistance at `gap` (m, overlap negative); positive semi-definite and finite for every gap.
     fn resistance(&self, gap: f64) -> Resistance;
+
+    /// The inverse length κ, 1/m, if in overlap the resistance is `resistance(0) exp(κ S)`, to
+    /// rounding; 0 for a constant, infinite for none. `None` if it is anything else.
+    fn fade(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Symmetric tangential resistance of a pair, N s/m.

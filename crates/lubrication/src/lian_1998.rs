@@ -69,6 +69,10 @@ impl TangentialCurve for Lian1998Curve {
         let slip = self.scale * strength * self.clearance.weight(gap);
         Resistance { slip, coupling: 0.0, rolling: 0.0 }
     }
+
+    fn fade(&self) -> Option<f64> {
+        Some(self.clearance.fade())
+    }
 }
 
 #[cfg(test)]

@@ -108,7 +108,11 @@ impl NormalCurve for Pitois2000Curve {
         let ratio = s / s.hypot(self.width_squared.sqrt());
         let edge = (1.0 + self.contact_ratio) / (1.0 + ratio);
         let logarithm = (ratio / self.contact_ratio * edge * edge).ln();
-        self.contact_coefficient * gap.min(self.clearance.floor) + self.strength * logarithm
+        self.contact_coefficient * gap.min(self.clearance.floor()) + self.strength * logarithm
+    }
+
+    fn fade(&self) -> Option<f64> {
+        Some(self.clearance.fade())
     }
 }
 

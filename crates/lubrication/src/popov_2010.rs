@@ -44,6 +44,8 @@ pub struct Popov2010 {
 pub struct Popov2010Curve {
     scale: f64,
     half_radius: f64,
+    /// Slip resistance at contact, N s/m.
+    contact: f64,
     clearance: Clearance,
 }
 
@@ -68,16 +70,34 @@ impl TangentialDrag for Popov2010 {
     fn curve(&self, bridge: &Bridge, viscosity: f64) -> Result<Self::Curve, OutOfRange> {
         let clearance = self.near.fold(bridge)?;
         let scale = 2.0 * PI * scale(bridge, viscosity, &clearance)?;
-        Ok(Popov2010Curve { scale, half_radius: 0.5 * bridge.reduced_radius(), clearance })
+        let half_radius = 0.5 * bridge.reduced_radius();
+        let mut curve = Popov2010Curve { scale, half_radius, contact: 0.0, clearance };
+        curve.contact = curve.open(clearance.contact);
+        Ok(curve)
+    }
+}
+
+impl Popov2010Curve {
+    /// The slip resistance at a clearance, m, without the fade in overlap.
+    #[inline]
+    fn open(&self, clearance: f64) -> f64 {
+        self.scale * (1.0 + self.half_radius / clearance).ln()
     }
 }
 
 impl TangentialCurve for Popov2010Curve {
     #[inline]
     fn resistance(&self, gap: f64) -> Resistance {
-        let logarithm = (1.0 + self.half_radius / self.clearance.at(gap)).ln();
-        let slip = self.scale * logarithm * self.clearance.weight(gap);
+        let slip = if gap < 0.0 {
+            self.contact * self.clearance.weight(gap)
+        } else {
+            self.open(self.clearance.at(gap))
+        };
         Resistance { slip, coupling: 0.0, rolling: 0.0 }
+    }
+
+    fn fade(&self) -> Option<f64> {
+        Some(self.clearance.fade())
     }
 }
 

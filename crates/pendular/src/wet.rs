@@ -1,13 +1,17 @@
+mod act;
 mod state;
 
-use pendular_capillary::{CapillaryLaw, ForceCurve};
+use act::{Pull, act};
+
+use pendular_capillary::CapillaryLaw;
 use pendular_dem_core::{
-    Class, DVec3, Encounter, Load, Pair, PairTerm, Partner, StabilityLoad, TermError, Visit,
+    Class, Columns, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs, Partner,
+    StabilityLoad, TermError, Visit,
 };
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
 use pendular_pair::{Bridge, Mate, OutOfRange, Range};
 use pendular_transfer::formation::{self, WetMate};
-use pendular_transfer::{DynamicCurve, RuptureLaw, Split, TransferError, film};
+use pendular_transfer::{RuptureLaw, Split, TransferError, film};
 
 use crate::split::Splits;
 use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
@@ -102,11 +106,12 @@ pub struct Counts {
 
 /// What a pair remembers of its bridge; all that [`Wet::load`](PairTerm::load) needs of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)] // what every step reads comes first
 pub struct Hold<C, N, S> {
     bridge: u32,
     rupture: f64,
-    reduced_radius: f64,
-    dynamic: DynamicCurve,
+    /// The forces at contact: in overlap nothing else is looked at.
+    contact: Pull,
     curves: Option<(C, N, S)>,
 }
 
@@ -120,8 +125,8 @@ impl<C, N, S> Hold<C, N, S> {
 
 impl<C, N, S> Default for Hold<C, N, S> {
     fn default() -> Self {
-        let dynamic = DynamicCurve::One;
-        Self { bridge: DRY, rupture: 0.0, reduced_radius: 0.0, dynamic, curves: None }
+        // No gap is below this rupture distance.
+        Self { bridge: DRY, rupture: f64::NEG_INFINITY, contact: Pull::UNKNOWN, curves: None }
     }
 }
 
@@ -405,16 +410,16 @@ where
     fn hold(&self, account: u32, live: &LiveBridge) -> Result<Column<C, N, S>, OutOfRange> {
         let (laws, bridge) = (self.laws(live.second), &live.bridge);
         let viscosity = self.liquid.viscosity;
+        let curves = (
+            laws.capillary.curve(bridge, self.range)?,
+            laws.normal.curve(bridge, viscosity)?,
+            laws.tangential.curve(bridge, viscosity)?,
+        );
         Ok(Hold {
             bridge: account,
             rupture: laws.rupture.distance(bridge, self.range)?,
-            reduced_radius: bridge.reduced_radius(),
-            dynamic: laws.dynamic.curve(bridge)?,
-            curves: Some((
-                laws.capillary.curve(bridge, self.range)?,
-                laws.normal.curve(bridge, viscosity)?,
-                laws.tangential.curve(bridge, viscosity)?,
-            )),
+            contact: Pull::contact(&curves),
+            curves: Some(curves),
         })
     }
 
@@ -510,31 +515,36 @@ where
             || !formation::films_touch(encounter.gap, self.thicknesses(encounter))
     }
 
+    const LANES: bool = true;
+
     #[inline]
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
-        let gap = pair.encounter.gap;
-        let Some((capillary, normal, tangential)) = &column.curves else {
-            let forms = pair.encounter.nearest
-                && formation::films_touch(gap, self.thicknesses(&pair.encounter));
-            return Load { attention: forms, ..Load::default() };
-        };
-        if gap > column.rupture {
-            let speed = pair.separation_speed.hypot(pair.slip.length());
-            if gap > column.rupture * column.dynamic.factor(speed) {
-                return Load { attention: true, ..Load::default() };
-            }
+        let geometry = Geometry::of(pair);
+        match column.near(pair.encounter.gap) {
+            Some(pull) => act(&[pull], &geometry),
+            None => match self.apart(pair, column) {
+                Some(pull) => act(&[pull], &geometry),
+                None => return Load { attention: true, ..Load::default() },
+            },
         }
-        let tension = capillary.force(gap) + normal.coefficient(gap) * pair.separation_speed;
-        let resistance = tangential.resistance(gap);
-        let mut shear = -resistance.slip * pair.slip;
-        let mut couple = DVec3::ZERO;
-        if resistance.coupling != 0.0 || resistance.rolling != 0.0 {
-            let rolling = column.reduced_radius * pair.spin.cross(pair.half_step_normal);
-            shear -= resistance.coupling * rolling;
-            let force = -(resistance.coupling * pair.slip + resistance.rolling * rolling);
-            couple = column.reduced_radius * pair.normal.cross(force);
-        }
-        Load { tension, shear, couple, ..Load::default() }
+        .single()
+    }
+
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+    ) -> Loads<L> {
+        let gaps = pairs.geometry.gap.unpack();
+        let mut near = true;
+        let mut pulls = L::each(|k| {
+            let pull = columns.column(k).near(gaps[k]);
+            near &= pull.is_some();
+            pull.unwrap_or_default()
+        });
+        let attention = if near { 0 } else { self.look_apart(pairs, columns, &mut pulls) };
+        Loads { attention, ..act(&pulls, &pairs.geometry) }
     }
 
     #[inline]
@@ -599,6 +609,45 @@ where
     N: NormalDrag,
     S: TangentialDrag,
 {
+    /// Corrects the forces of those pairs that have no bridge or a far one; returns which of them
+    /// want attention.
+    #[cold]
+    #[inline(never)]
+    fn look_apart<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Column<C, N, S>>,
+        pulls: &mut L::Each<Pull>,
+    ) -> u32 {
+        let mut attention = 0;
+        for k in 0..L::WIDTH {
+            let pair = pairs.pair(k);
+            if columns.column(k).near(pair.encounter.gap).is_none() {
+                let pull = self.apart(&pair, columns.column(k));
+                attention |= u32::from(pull.is_none()) << k;
+                pulls[k] = pull.unwrap_or_default();
+            }
+        }
+        attention
+    }
+
+    /// What acts in a pair without bridge or beyond its static rupture distance; `None` if a bridge
+    /// forms or ruptures.
+    #[cold]
+    fn apart(&self, pair: &Pair, column: &Column<C, N, S>) -> Option<Pull> {
+        let (encounter, gap) = (&pair.encounter, pair.encounter.gap);
+        if column.bridge == DRY {
+            let forms =
+                encounter.nearest && formation::films_touch(gap, self.thicknesses(encounter));
+            return (!forms).then(Pull::default);
+        }
+        let speed = pair.separation_speed.hypot(pair.slip.length());
+        let live = self.live[column.bridge as usize].as_ref()?;
+        let dynamic = self.laws(live.second).dynamic.curve(&live.bridge);
+        let factor = dynamic.map_or(1.0, |curve| curve.factor(speed));
+        if gap > column.rupture * factor { None } else { column.far(gap) }
+    }
+
     /// The drag at contact of the strongest pair that a class can be part of.
     fn strongest_drag(
         &self,
