@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::grid::Grid;
+use crate::grid::Grids;
 use crate::particles::{Particles, Place};
 
 /// Two slots; the particle with the lower id comes first, in whatever list the pair stands.
@@ -82,7 +82,7 @@ impl<C: Copy + Default> PairList<C> {
 /// Finds the outer pairs of the slots in `range`: those inside it once, those across its border.
 pub(crate) fn find<C>(
     particles: &Particles,
-    grid: &Grid,
+    grids: &Grids,
     range: &Range<u32>,
     reach: f64,
     inside: &mut PairList<C>,
@@ -95,7 +95,7 @@ pub(crate) fn find<C>(
     for i in range.clone() {
         let p = places[i as usize];
         near.clear();
-        grid.around(p.x, |j| {
+        grids.around(&p, |j| {
             let ours = range.contains(&j);
             if ours && j <= i {
                 return;

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Settings, Simulation, each};
 use crate::chunk::{Memory, WallPair};
-use crate::grid::Grid;
+use crate::grid::Grids;
 use crate::lists;
 use crate::particles::{Class, Particles};
 use crate::{Boundary, PairTerm, wall_pass};
@@ -113,11 +113,11 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 
     fn build(&mut self, reach: f64) {
         let range = reach + self.lists.skin;
-        let grid = Grid::new(&self.particles.places, range);
+        let grids = Grids::new(&self.particles.places, range);
         let particles = &self.particles;
         each(&mut self.chunks, |chunk| {
             let (inside, across) = (&mut chunk.inside, &mut chunk.across);
-            lists::find(particles, &grid, &chunk.range, range, inside, across);
+            lists::find(particles, &grids, &chunk.range, range, inside, across);
         });
         let lists = &mut self.lists;
         lists.built_at.iter_mut().zip(&particles.places).for_each(|(at, place)| *at = place.x);
