@@ -270,3 +270,104 @@ pub(crate) fn roll(sum: &mut Roll, torque: DVec3) {
     sum.spin += torque;
     sum.contacts += 1.0;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Columns, Contact, Loads, PairContact, Settings, Simulation, StabilityLoad};
+    use pendular_contact::Linear;
+    use rand_pcg::Pcg64;
+    use rand_pcg::rand_core::{Rng, SeedableRng};
+
+    type Dry = Contact<Linear>;
+
+    /// The contact, one pair at a time.
+    struct Single(Dry);
+
+    impl PairTerm for Single {
+        type Column = <Dry as PairTerm>::Column;
+        const LANES: bool = false;
+
+        fn reach(&self) -> f64 {
+            self.0.reach()
+        }
+
+        fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
+            self.0.idle(encounter, column)
+        }
+
+        fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
+            self.0.load(pair, column)
+        }
+
+        fn load_lanes<L: Lane>(
+            &self,
+            pairs: &Pairs<'_, L>,
+            columns: &mut impl Columns<Self::Column>,
+        ) -> Loads<L> {
+            assert_eq!(L::WIDTH, 1, "four at a time was not asked for");
+            Loads::pack(&L::each(|k| self.0.load(&pairs.pair(k), columns.column(k))))
+        }
+
+        fn live(&self, column: &Self::Column) -> bool {
+            self.0.live(column)
+        }
+
+        fn rolls(&self) -> bool {
+            self.0.rolls()
+        }
+
+        fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+            self.0.stability(classes)
+        }
+    }
+
+    fn heap() -> Particles {
+        let classes = vec![1e-3, 1.3e-3].into_iter().map(|r| Class::new(r, 2500.0, 0).unwrap());
+        let mut particles = Particles::new(classes.collect()).unwrap();
+        let mut random = Pcg64::seed_from_u64(11);
+        let mut any = |s: f64| s * ((random.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0);
+        for k in 0..700_u32 {
+            let at = DVec3::new(f64::from(k % 10), f64::from(k / 10 % 10), f64::from(k / 100));
+            let x = 2.65e-3 * at + DVec3::new(any(3e-5), any(3e-5), any(3e-5));
+            let v = DVec3::new(any(0.5), any(0.5), any(0.5)) - 0.1 * (at - 4.5);
+            let w = DVec3::new(any(300.0), any(300.0), any(300.0));
+            particles.push((k % 2) as u16, x, v, w).unwrap();
+        }
+        particles
+    }
+
+    fn run<T: PairTerm>(term: impl Fn(Dry) -> T, rolling_friction: f64) -> Vec<[u64; 9]> {
+        let particles = heap();
+        let law = move |a: &Class, b: f64| PairContact {
+            normal: Linear::from_restitution(1e4, 0.7, a.mass() * b / (a.mass() + b)).unwrap(),
+            friction: 0.4,
+            rolling_friction,
+            tangential_damping: 1e-3,
+        };
+        let dry = Contact::new(
+            particles.classes(),
+            0,
+            move |a, b| law(a, b.mass()),
+            move |a, _| law(a, a.mass()),
+        );
+        let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(2e-6) };
+        let settings = Settings { start_overlap: 0.5, ..settings };
+        let mut simulation =
+            Simulation::new(particles, term(dry), crate::NoWalls, settings).unwrap();
+        simulation.advance(1_500).unwrap();
+        assert!(simulation.largest_overlap() > 1e-4, "spheres touch");
+        let bits = |p: crate::Particle| {
+            let all = [p.position, p.velocity, p.spin].map(|v| v.to_array().map(f64::to_bits));
+            std::array::from_fn(|k| all[k / 3][k % 3])
+        };
+        simulation.particles().iter().map(bits).collect()
+    }
+
+    #[test]
+    fn four_at_a_time_and_one_at_a_time_give_the_same_bits() {
+        for rolling_friction in [0.0, 1e-5] {
+            assert!(run(|dry| dry, rolling_friction) == run(Single, rolling_friction));
+        }
+    }
+}
