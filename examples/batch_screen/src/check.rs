@@ -63,6 +63,11 @@ pub(crate) fn check(scene: &Scene, file: &Path) -> Result<(), SceneError> {
     scene.liquid.as_ref().map_or(Ok(()), |liquid| wet(liquid, &check))
 }
 
+/// Checks an interval of time, s.
+pub(crate) fn interval(file: &Path, key: &str, value: f64) -> Result<(), SceneError> {
+    Check { file }.positive(key, value)
+}
+
 fn materials(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     for (name, material) in &scene.materials {
         let key = |what: &str| format!("materials.{name}.{what}");

@@ -23,6 +23,12 @@ pub(crate) enum Command {
         /// Name of the scene.
         name: String,
     },
+    /// Writes the commented demo scene to a file, to start from.
+    Sample {
+        /// The file; it must not exist.
+        #[arg(default_value = "scene.toml")]
+        file: PathBuf,
+    },
     /// Checks a scene and prints what follows from it, without running it.
     Check {
         /// A scene file or the name of a built-in scene.
@@ -30,8 +36,30 @@ pub(crate) enum Command {
     },
     /// Runs a scene.
     Run(RunArgs),
+    /// Goes on with a run from its last checkpoint.
+    Resume {
+        /// Folder of the run.
+        folder: PathBuf,
+        #[command(flatten)]
+        how: How,
+    },
+    /// Makes report.html from the tables of a run, whole or not.
+    Report {
+        /// Folder of the run.
+        folder: PathBuf,
+    },
+    /// Overlays runs on one page.
+    Compare {
+        /// Folders of the runs.
+        #[arg(required = true)]
+        folders: Vec<PathBuf>,
+        /// The page.
+        #[arg(long, default_value = "compare.html", value_name = "FILE")]
+        out: PathBuf,
+    },
 }
 
+/// What a run takes.
 #[derive(Debug, Args)]
 pub(crate) struct RunArgs {
     /// A scene file or the name of a built-in scene.
@@ -43,9 +71,6 @@ pub(crate) struct RunArgs {
     /// Time step, s, instead of the scene's.
     #[arg(long, value_name = "S")]
     pub(crate) dt: Option<f64>,
-    /// Threads; results do not depend on them. All cores where it is left out.
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<usize>,
     /// Folder for the results; `out/NAME` where it is left out.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -55,11 +80,26 @@ pub(crate) struct RunArgs {
     /// Seed of the packing, instead of the scene's.
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    /// Writes ParaView files into the folder `paraview`, every S seconds of simulated time.
+    #[arg(long, value_name = "S")]
+    pub(crate) vtk: Option<f64>,
+    #[command(flatten)]
+    pub(crate) how: How,
 }
 
-impl Default for RunArgs {
-    fn default() -> Self {
-        let scene = "demo".to_owned();
-        Self { scene, time: None, dt: None, threads: None, out: None, beds: None, seed: None }
-    }
+/// How a run is carried out.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct How {
+    /// Threads; results do not depend on them. All cores where it is left out.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Wall time between checkpoints, s.
+    #[arg(long, value_name = "S", default_value_t = 300.0)]
+    pub(crate) checkpoint_every: f64,
+    /// Tells no progress.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Tells progress as a JSON object a line.
+    #[arg(long, conflicts_with = "quiet")]
+    pub(crate) json: bool,
 }

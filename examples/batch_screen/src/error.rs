@@ -38,6 +38,14 @@ pub(crate) enum RunError {
     Scene(#[from] SceneError),
     #[error("cannot write {}: {source}", path.display())]
     Write { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    Checkpoint(#[from] crate::checkpoint::CheckpointError),
+    #[error(transparent)]
+    Page(#[from] crate::page::PageError),
+    #[error(transparent)]
+    ParaView(#[from] crate::vtk::VtkError),
+    #[error("stopped as asked; go on with: batch_screen resume {}", folder.display())]
+    Stopped { folder: PathBuf },
     #[error("the run stopped: {0}")]
     Simulation(pendular::dem::SimulationError),
 }

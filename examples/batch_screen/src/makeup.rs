@@ -1,16 +1,29 @@
 //! The two make-ups of a screening run: dry, and with liquid.
 
 use pendular::contact::Linear;
-use pendular::dem::{Contact, PairTerm};
+use pendular::dem::{Contact, DVec3, PairTerm, Spring};
+use pendular::pair::OutOfRange;
+use serde::{Deserialize, Serialize};
 
 use crate::build::WetTerm;
 
-/// A pair term that may hold liquid.
-pub(crate) trait Makeup: PairTerm {
+/// What is stored of a pair: the tangential spring and the number of its bridge.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct StoredPair {
+    pub(crate) stretch: [f64; 3],
+    pub(crate) bridge: Option<u32>,
+}
+
+/// A pair term that may hold liquid, and whose columns can be stored.
+pub(crate) trait Makeup: PairTerm + Sized {
     /// The liquid, if there is any.
     fn wet(&self) -> Option<&WetTerm>;
     /// The liquid, to be changed.
     fn wet_mut(&mut self) -> Option<&mut WetTerm>;
+    /// A column as it is stored.
+    fn store(column: &Self::Column) -> StoredPair;
+    /// A stored column.
+    fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange>;
 }
 
 impl Makeup for Contact<Linear> {
@@ -21,6 +34,14 @@ impl Makeup for Contact<Linear> {
     fn wet_mut(&mut self) -> Option<&mut WetTerm> {
         None
     }
+
+    fn store(column: &Self::Column) -> StoredPair {
+        StoredPair { stretch: column.stretch().to_array(), bridge: None }
+    }
+
+    fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange> {
+        Ok(Spring::new(DVec3::from_array(stored.stretch), ()))
+    }
 }
 
 impl Makeup for (Contact<Linear>, WetTerm) {
@@ -30,5 +51,13 @@ impl Makeup for (Contact<Linear>, WetTerm) {
 
     fn wet_mut(&mut self) -> Option<&mut WetTerm> {
         Some(&mut self.1)
+    }
+
+    fn store((spring, hold): &Self::Column) -> StoredPair {
+        StoredPair { stretch: spring.stretch().to_array(), bridge: hold.bridge() }
+    }
+
+    fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange> {
+        Ok((self.0.load_pair(stored)?, self.1.column(stored.bridge)?))
     }
 }

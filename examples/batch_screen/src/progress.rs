@@ -1,11 +1,12 @@
-//! The live line of a run.
+//! The live line of a run: a bar on a terminal, plain lines elsewhere, JSON for other programs.
 
 use std::cell::Cell;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use pendular::MeshWalls;
 use pendular::dem::Simulation;
+use serde_json::json;
 
 use crate::makeup::Makeup;
 use crate::tally::Tally;
@@ -13,55 +14,86 @@ use crate::tally::Tally;
 /// Time between renewals of the line, s.
 const RENEW: f64 = 0.2;
 
-/// A bar on the terminal; silent where there is none.
+/// How progress is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// A bar on a terminal, else a line for each row of the results, both on stderr.
+    People,
+    /// A JSON object a line on stdout.
+    Json,
+    /// Nothing.
+    Quiet,
+}
+
+/// Tells how far a run is.
 pub(crate) struct Progress {
+    style: Style,
     bar: ProgressBar,
-    last: Cell<f64>,
+    /// Wall time, steps and simulated time at the last renewal: the speed is a recent one.
+    last: Cell<(Instant, u64, f64)>,
 }
 
 impl Progress {
-    /// A bar over `time` s of simulated time.
-    pub(crate) fn new(time: f64) -> Self {
+    /// Over `time` s of simulated time.
+    pub(crate) fn new(time: f64, style: Style) -> Self {
         let bar = ProgressBar::new((1e6 * time).round() as u64);
+        if style != Style::People {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
         let template = "{bar:28} {percent:>3} %  {msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        Self { bar, last: Cell::new(0.0) }
+        Self { style, bar, last: Cell::new((Instant::now(), 0, 0.0)) }
     }
 
     /// Renews the line, not too often.
     pub(crate) fn step<T: Makeup>(
         &self,
         simulation: &Simulation<T, MeshWalls>,
-        passed: &[u64],
+        collected: &[u64],
         end: f64,
-        start: Instant,
     ) {
-        let elapsed = start.elapsed().as_secs_f64();
-        if elapsed - self.last.get() < RENEW {
+        let (then, steps, before) = self.last.get();
+        let passed = then.elapsed().as_secs_f64();
+        if passed < RENEW {
             return;
         }
-        self.last.set(elapsed);
         let time = simulation.time();
+        self.last.set((Instant::now(), simulation.step(), time));
+        let speed = simulation.step().saturating_sub(steps) as f64 / passed;
+        let left = passed * (end - time) / (time - before).max(1e-12);
         let above = simulation.particles().len() as u64;
-        let total = above + passed.iter().sum::<u64>();
-        let bridges = simulation
-            .term()
-            .wet()
-            .map_or(String::new(), |wet| format!("{} bridges, ", wet.alive()));
-        let speed = simulation.step() as f64 / elapsed;
-        let left = elapsed * (end - time) / time.max(1e-12);
-        self.bar.set_position((1e6 * time) as u64);
-        self.bar.set_message(format!(
-            "t = {time:.3} of {end} s, {above} of {total} above, {bridges}{speed:.0} steps/s, \
-             {left:.0} s left"
-        ));
+        let total = above + collected.iter().sum::<u64>();
+        let alive = simulation.term().wet().map(crate::build::WetTerm::alive);
+        match self.style {
+            Style::Quiet => {}
+            Style::Json => {
+                let line = json!({
+                    "time_s": time,
+                    "end_s": end,
+                    "above": above,
+                    "particles": total,
+                    "bridges": alive,
+                    "steps_per_s": speed,
+                    "left_s": left,
+                });
+                println!("{line}");
+            }
+            Style::People => {
+                let bridges = alive.map_or(String::new(), |n| format!("{n} bridges, "));
+                self.bar.set_position((1e6 * time) as u64);
+                self.bar.set_message(format!(
+                    "t = {time:.3} of {end} s, {above} of {total} above, {bridges}\
+                     {speed:.0} steps/s, {left:.0} s left"
+                ));
+            }
+        }
     }
 
     /// A row of results was written: said where no bar can be seen.
     pub(crate) fn row(&self, tally: &Tally) {
-        if self.bar.is_hidden() {
+        if self.style == Style::People && self.bar.is_hidden() {
             let above: u64 = tally.above.iter().sum();
             let bridges = tally.alive();
             eprintln!("t = {:.3} s: {above} above the screen, {bridges} bridges", tally.time);

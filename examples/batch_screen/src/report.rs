@@ -63,7 +63,7 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
 /// The final table.
 pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> String {
     let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
-    let (total, classes) = retained(&outcome.tally, &outcome.first, &derived.masses, density);
+    let (total, classes) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
     let tally = &outcome.tally;
     let mut text = format!("after {:.3} s\n", tally.time);
     text += "  class          start   above  collected  fraction retained\n";
@@ -120,7 +120,7 @@ pub(crate) fn summary(
     parts: &[String],
 ) -> Result<(), RunError> {
     let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
-    let (total, classes) = retained(&outcome.tally, &outcome.first, &derived.masses, density);
+    let (total, classes) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
     let tally = &outcome.tally;
     let names: Vec<&str> = scene.classes.iter().map(|class| class.name.as_str()).collect();
     let by_class = |values: Vec<serde_json::Value>| -> serde_json::Map<_, _> {

@@ -1,6 +1,8 @@
-//! The run: steps, passages, rows of results.
+//! The run: steps, passages, rows of results, checkpoints.
 
-use std::path::Path;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use pendular::dem::{Departure, Particle, Profile, Simulation};
@@ -8,13 +10,16 @@ use pendular::{Account, MeshWalls};
 
 use crate::build::apparatus::collection;
 use crate::build::{Built, Derived, WetTerm};
+use crate::checkpoint::{Checkpoint, Core, StoredWet};
 use crate::error::{RunError, SceneError};
+use crate::frames;
 use crate::makeup::Makeup;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::screening::Screening;
-use crate::tables::Tables;
+use crate::tables::{Start, Tables};
 use crate::tally::{Gone, Tally};
+use crate::vtk::Series;
 
 /// Steps between looks at what has left; the core lets particles leave every 64 steps.
 const BATCH: u64 = 64;
@@ -25,42 +30,96 @@ const FRAMES: u64 = 60;
 #[derive(Debug)]
 pub(crate) struct Outcome {
     pub(crate) tally: Tally,
-    pub(crate) first: Tally,
+    pub(crate) start: Start,
     pub(crate) steps: u64,
     pub(crate) largest_overlap: f64,
     pub(crate) wall_time: Duration,
     pub(crate) profile: Profile,
 }
 
-/// Runs a built scene to its end, writing rows into `out` as it goes.
+/// What a run is besides its scene.
+#[derive(Debug, Clone)]
+pub(crate) struct Job {
+    /// Folder of the results.
+    pub(crate) out: PathBuf,
+    /// What the scene was called, its text, and the folder its paths are relative to.
+    pub(crate) source: String,
+    pub(crate) text: String,
+    pub(crate) base: PathBuf,
+    /// Time between ParaView frames, s.
+    pub(crate) vtk: Option<f64>,
+    /// Wall time between checkpoints, s.
+    pub(crate) checkpoint_every: f64,
+    /// Set when the run is to stop at the next occasion.
+    pub(crate) stop: Arc<AtomicBool>,
+}
+
+/// Runs a built scene from its start, or goes on from a checkpoint of it.
 pub(crate) fn run(
     scene: &Scene,
     built: Built,
-    out: &Path,
+    job: &Job,
+    from: Option<Checkpoint>,
     progress: &Progress,
 ) -> Result<Outcome, RunError> {
     let Built { particles, walls, contact, wet, settings, derived } = built;
     match wet {
-        None => {
-            let simulation = Simulation::new(particles, contact, walls, settings);
-            Run::new(scene, simulation.map_err(SceneError::from)?, derived, out)?.go(progress)
-        }
+        None => begin(scene, particles, contact, walls, settings, derived, job, from)?.go(progress),
         Some(wet) => {
-            let simulation = Simulation::new(particles, (contact, wet), walls, settings);
-            Run::new(scene, simulation.map_err(SceneError::from)?, derived, out)?.go(progress)
+            let term = (contact, wet);
+            begin(scene, particles, term, walls, settings, derived, job, from)?.go(progress)
         }
     }
 }
 
+#[expect(clippy::too_many_arguments, reason = "the parts of a built scene, taken apart")]
+fn begin<'a, T: Makeup>(
+    scene: &'a Scene,
+    particles: pendular::dem::Particles,
+    mut term: T,
+    walls: MeshWalls,
+    settings: pendular::dem::Settings,
+    derived: Derived,
+    job: &'a Job,
+    from: Option<Checkpoint>,
+) -> Result<Run<'a, T>, RunError> {
+    let Some(from) = from else {
+        let simulation =
+            Simulation::new(particles, term, walls, settings).map_err(SceneError::from)?;
+        return Run::new(scene, simulation, derived, job);
+    };
+    let Checkpoint { core, wet, .. } = from.clone();
+    if let (Some(stored), Some(wet)) = (wet, term.wet_mut()) {
+        wet.resume(stored.state()).map_err(SceneError::from)?;
+    }
+    let mut broken = None;
+    let snapshot = core.snapshot().map(|stored| {
+        term.load_pair(stored).unwrap_or_else(|error| {
+            broken = Some(error);
+            T::Column::default()
+        })
+    });
+    if let Some(error) = broken {
+        return Err(SceneError::from(pendular::WetError::from(error)).into());
+    }
+    let simulation = Simulation::restore(particles, term, walls, settings, snapshot);
+    Run::resume(scene, simulation.map_err(SceneError::from)?, derived, job, from)
+}
+
 struct Run<'a, T: Makeup> {
     scene: &'a Scene,
+    job: &'a Job,
     simulation: Simulation<T, MeshWalls>,
+    class: Vec<u16>,
     tables: Tables,
+    vtk: Option<Series>,
     screening: Screening,
     apertures: u64,
     gone: Gone,
     frames: u64,
+    vtk_frames: u64,
     rows: u64,
+    before: f64,
 }
 
 impl<'a, T: Makeup> Run<'a, T> {
@@ -68,56 +127,151 @@ impl<'a, T: Makeup> Run<'a, T> {
         scene: &'a Scene,
         simulation: Simulation<T, MeshWalls>,
         derived: Derived,
-        out: &Path,
+        job: &'a Job,
     ) -> Result<Self, RunError> {
-        let parts = simulation.boundary().0.parts();
-        let names: Vec<String> = parts.iter().map(|part| part.name.clone()).collect();
-        let tables = Tables::create(out, scene, &derived, &names)?;
+        let tables = Tables::create(&job.out, scene, &derived, &part_names(&simulation))?;
         let screening = Screening::new(scene, derived.class.len());
         let classes = scene.classes.len();
         let gone = Gone { collected: vec![0; classes], fines: vec![0.0; classes], escaped: 0 };
         let apertures = screening.apertures();
-        Ok(Self { scene, simulation, tables, screening, apertures, gone, frames: 0, rows: 0 })
+        let vtk = match job.vtk {
+            Some(_) => Some(Series::create(&job.out.join("paraview"))?),
+            None => None,
+        };
+        let class = derived.class;
+        let (frames, vtk_frames, rows, before) = (0, 0, 0, 0.0);
+        Ok(Self {
+            scene,
+            job,
+            simulation,
+            class,
+            tables,
+            vtk,
+            screening,
+            apertures,
+            gone,
+            frames,
+            vtk_frames,
+            rows,
+            before,
+        })
+    }
+
+    fn resume(
+        scene: &'a Scene,
+        simulation: Simulation<T, MeshWalls>,
+        derived: Derived,
+        job: &'a Job,
+        from: Checkpoint,
+    ) -> Result<Self, RunError> {
+        let names = part_names(&simulation);
+        let (lengths, start) = (&from.tables, from.start);
+        let tables = Tables::resume(&job.out, scene, &derived, &names, lengths, start)?;
+        let vtk = match job.vtk {
+            // Frames that were written after the checkpoint are written again.
+            Some(interval) => {
+                let last = (from.vtk_frames as f64 - 0.5) * interval;
+                Some(Series::resume(&job.out.join("paraview"), last)?)
+            }
+            None => None,
+        };
+        Ok(Self {
+            scene,
+            job,
+            class: derived.class,
+            tables,
+            vtk,
+            apertures: from.screening.apertures(),
+            screening: from.screening,
+            gone: from.gone,
+            frames: from.frames,
+            vtk_frames: from.vtk_frames,
+            rows: from.rows,
+            before: from.elapsed,
+            simulation,
+        })
     }
 
     fn go(mut self, progress: &Progress) -> Result<Outcome, RunError> {
-        let start = Instant::now();
+        let begun = Instant::now();
+        let mut saved = begun;
         let step = self.simulation.settings().time_step;
         let last = (self.scene.time / step).round() as u64;
         let at = |k: u64, interval: f64| (k as f64 * interval / step).round() as u64;
         let replay = self.scene.time / FRAMES as f64;
-        let first = self.tally();
+        let vtk_at = |k: u64| self.job.vtk.map_or(u64::MAX, |interval| at(k, interval));
+        let interval = self.scene.output_interval;
+        if self.simulation.step() == 0 {
+            // From here on the run can be taken up again, whenever it is killed.
+            self.save(begun)?;
+        }
         loop {
             let now = self.simulation.step();
-            if now == at(self.frames, replay) || now == last {
+            if now == at(self.frames, replay) || (now == last && self.frames <= FRAMES) {
                 self.frame()?;
             }
-            if now == at(self.rows, self.scene.output_interval) || now == last {
+            if now == vtk_at(self.vtk_frames) {
+                self.vtk_frame()?;
+            }
+            if now == at(self.rows, interval) || (now == last && at(self.rows, interval) < last) {
                 progress.row(&self.row()?);
             }
             if now >= last {
                 break;
             }
-            let next = at(self.rows, self.scene.output_interval).min(at(self.frames, replay));
+            let next =
+                at(self.rows, interval).min(at(self.frames, replay)).min(vtk_at(self.vtk_frames));
             // Stay on multiples of the batch, so that passages are booked when they happen.
             let steps = (BATCH - now % BATCH).min(next.min(last) - now);
             let advanced = self.simulation.advance(steps);
             self.look()?;
             if let Err(error) = advanced {
-                self.row()?;
                 return Err(RunError::Simulation(error));
             }
-            progress.step(&self.simulation, &self.gone.collected, self.scene.time, start);
+            let stop = self.job.stop.load(Ordering::Relaxed);
+            if stop || saved.elapsed().as_secs_f64() >= self.job.checkpoint_every {
+                self.save(begun)?;
+                saved = Instant::now();
+            }
+            if stop {
+                progress.finish();
+                return Err(RunError::Stopped { folder: self.job.out.clone() });
+            }
+            progress.step(&self.simulation, &self.gone.collected, self.scene.time);
         }
         progress.finish();
         Ok(Outcome {
             tally: self.tally(),
-            first,
+            start: self.tables.start(),
             steps: self.simulation.step(),
             largest_overlap: self.simulation.largest_overlap(),
-            wall_time: start.elapsed(),
+            wall_time: begun.elapsed() + Duration::from_secs_f64(self.before),
             profile: self.simulation.profile(),
         })
+    }
+
+    fn save(&self, begun: Instant) -> Result<(), RunError> {
+        let checkpoint = Checkpoint {
+            source: self.job.source.clone(),
+            scene: self.job.text.clone(),
+            base: self.job.base.clone(),
+            time: self.scene.time,
+            time_step: self.simulation.settings().time_step,
+            seed: self.scene.seed,
+            vtk: self.job.vtk,
+            class: self.class.clone(),
+            core: Core::of(&self.simulation),
+            wet: self.simulation.term().wet().map(StoredWet::of),
+            screening: self.screening.clone(),
+            gone: self.gone.clone(),
+            start: self.tables.start(),
+            tables: self.tables.lengths()?,
+            rows: self.rows,
+            frames: self.frames,
+            vtk_frames: self.vtk_frames,
+            elapsed: self.before + begun.elapsed().as_secs_f64(),
+        };
+        Ok(checkpoint.write(&self.job.out)?)
     }
 
     fn tally(&self) -> Tally {
@@ -139,6 +293,14 @@ impl<'a, T: Makeup> Run<'a, T> {
         let film = |id: u32| wet.map_or(0.0, |wet| wet.film_thickness(id));
         self.tables.frame(self.simulation.time(), &particles, film)?;
         self.frames += 1;
+        Ok(())
+    }
+
+    fn vtk_frame(&mut self) -> Result<(), RunError> {
+        if let Some(series) = &mut self.vtk {
+            series.frame(&frames::frame(&self.simulation))?;
+        }
+        self.vtk_frames += 1;
         Ok(())
     }
 
@@ -170,4 +332,8 @@ impl<'a, T: Makeup> Run<'a, T> {
             self.gone.escaped += 1;
         }
     }
+}
+
+fn part_names<T: Makeup>(simulation: &Simulation<T, MeshWalls>) -> Vec<String> {
+    simulation.boundary().0.parts().iter().map(|part| part.name.clone()).collect()
 }

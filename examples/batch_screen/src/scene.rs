@@ -292,13 +292,6 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads a scene file.
-    pub(crate) fn read(path: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| SceneError::Unreadable { file: path.to_path_buf(), source })?;
-        Self::parse(&text, path)
-    }
-
     /// Index of a material in the order of names.
     pub(crate) fn material(&self, name: &str) -> Option<u8> {
         self.materials.keys().position(|known| known == name).map(|k| k as u8)

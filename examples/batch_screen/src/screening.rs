@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use pendular::MeshWalls;
 use pendular::dem::{PairTerm, Particle, Simulation};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::Scene;
 
@@ -16,7 +17,7 @@ pub(crate) struct Passage {
 }
 
 /// Follows the particles through the screen.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Screening {
     aperture: f64,
     wire: f64,

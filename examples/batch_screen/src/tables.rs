@@ -1,6 +1,7 @@
 //! The tables of a run, written and flushed row by row.
 
 use std::fs::File;
+use std::io::{Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use pendular::dem::Particle;
@@ -11,6 +12,9 @@ use crate::error::RunError;
 use crate::scene::Scene;
 use crate::screening::{Passage, partition};
 use crate::tally::Tally;
+
+/// Masses at the start, kg: in all, and by class.
+pub(crate) type Start = (f64, Vec<f64>);
 
 /// A CSV file whose rows are on disk as soon as they are written.
 struct Table {
@@ -28,6 +32,28 @@ impl Table {
         Ok(table)
     }
 
+    /// Goes on after the first `length` bytes, and forgets what came after them.
+    fn reopen(folder: &Path, name: &str, length: u64) -> Result<Self, RunError> {
+        let path = folder.join(name);
+        let open = || -> std::io::Result<File> {
+            let mut file = File::options().read(true).write(true).open(&path)?;
+            if file.metadata()?.len() < length {
+                return Err(std::io::Error::other("it is shorter than at the checkpoint"));
+            }
+            file.set_len(length)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(file)
+        };
+        let file = open().map_err(|source| RunError::Write { path: path.clone(), source })?;
+        Ok(Self { path, writer: csv::Writer::from_writer(file) })
+    }
+
+    /// Bytes on disk.
+    fn length(&self) -> Result<u64, RunError> {
+        let length = std::fs::metadata(&self.path).map(|data| data.len());
+        length.map_err(|source| RunError::Write { path: self.path.clone(), source })
+    }
+
     fn lines(&mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Result<(), RunError> {
         let write = || -> std::io::Result<()> {
             for row in rows {
@@ -38,6 +64,11 @@ impl Table {
         write().map_err(|source| RunError::Write { path: self.path.clone(), source })
     }
 }
+
+const PASSAGES: [&str; 7] = ["time_s", "id", "class", "diameter_m", "film_m3", "x_m", "y_m"];
+const REPLAY: [&str; 7] = ["time_s", "id", "class", "x_m", "y_m", "z_m", "film_m"];
+const BRIDGES: [&str; 7] =
+    ["time_s", "formed", "ruptured", "alive", "alive_wall", "mean_v_star", "extrapolated"];
 
 /// A header cell after another, by name.
 fn header(cells: impl IntoIterator<Item = impl Into<String>>) -> Vec<String> {
@@ -60,7 +91,7 @@ pub(crate) struct Tables {
     initial: Vec<u64>,
     masses: Vec<f64>,
     density: f64,
-    start: Option<(f64, Vec<f64>)>,
+    start: Option<Start>,
     groups: Vec<(String, Vec<usize>)>,
 }
 
@@ -74,6 +105,53 @@ impl Tables {
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
+        let create = |name: &str, cells: Vec<String>| Table::create(folder, name, &cells);
+        Self::open(scene, derived, parts, create)
+    }
+
+    /// Goes on with the tables of a folder from their lengths at a checkpoint.
+    pub(crate) fn resume(
+        folder: &Path,
+        scene: &Scene,
+        derived: &Derived,
+        parts: &[String],
+        lengths: &[u64],
+        start: Start,
+    ) -> Result<Self, RunError> {
+        let mut lengths = lengths.iter().copied();
+        let reopen =
+            |name: &str, _| Table::reopen(folder, name, lengths.next().unwrap_or(u64::MAX));
+        let mut tables = Self::open(scene, derived, parts, reopen)?;
+        tables.start = Some(start);
+        Ok(tables)
+    }
+
+    /// Bytes of each table, in the order in which they are opened.
+    pub(crate) fn lengths(&self) -> Result<Vec<u64>, RunError> {
+        let dry = [
+            &self.retained,
+            &self.partition,
+            &self.pegging,
+            &self.energy,
+            &self.passages,
+            &self.replay,
+        ];
+        let wet = [&self.liquid, &self.shared, &self.bridges].into_iter().flatten();
+        dry.into_iter().chain(wet).map(Table::length).collect()
+    }
+
+    /// Masses at the start, once a row has been written.
+    pub(crate) fn start(&self) -> Start {
+        self.start.clone().unwrap_or_default()
+    }
+
+    /// Opens every table with its header, in a fixed order.
+    fn open(
+        scene: &Scene,
+        derived: &Derived,
+        parts: &[String],
+        mut table: impl FnMut(&str, Vec<String>) -> Result<Table, RunError>,
+    ) -> Result<Self, RunError> {
         let names: Vec<String> = scene.classes.iter().map(|class| class.name.clone()).collect();
         let groups = groups(parts);
         let by_class = |first: &[&str], last: &[&str]| {
@@ -81,11 +159,6 @@ impl Tables {
             cells.extend(names.iter().cloned());
             cells.extend(header(last.iter().copied()));
             cells
-        };
-        let table = |name: &str, cells: Vec<String>| Table::create(folder, name, &cells);
-        let wet = |name: &str, cells: Vec<String>| match &scene.liquid {
-            Some(_) => Table::create(folder, name, &cells).map(Some),
-            None => Ok(None),
         };
         let volumes = |last: &[&str]| {
             let mut cells = header(["time_s"]);
@@ -95,36 +168,27 @@ impl Tables {
             cells.extend(header(last.iter().copied()));
             cells
         };
+        let retained = table("retained.csv", by_class(&["time_s", "total"], &["particles_above"]))?;
+        let partition =
+            table("partition.csv", by_class(&["time_s"], &["cut_size_mm", "imperfection"]))?;
+        let pegging = table("pegging.csv", by_class(&["time_s", "apertures", "blocked"], &[]))?;
+        let energy = table("energy.csv", header(["time_s", "kinetic_J", "potential_J"]))?;
+        let passages = table("passages.csv", header(PASSAGES))?;
+        let replay = table("replay.csv", header(REPLAY))?;
+        let mut wet = |name: &str, cells: Vec<String>| match &scene.liquid {
+            Some(_) => table(name, cells).map(Some),
+            None => Ok(None),
+        };
         Ok(Self {
-            retained: table("retained.csv", by_class(&["time_s", "total"], &["particles_above"]))?,
-            partition: table(
-                "partition.csv",
-                by_class(&["time_s"], &["cut_size_mm", "imperfection"]),
-            )?,
-            pegging: table("pegging.csv", by_class(&["time_s", "apertures", "blocked"], &[]))?,
-            energy: table("energy.csv", header(["time_s", "kinetic_J", "potential_J"]))?,
-            passages: table(
-                "passages.csv",
-                header(["time_s", "id", "class", "diameter_m", "film_m3", "x_m", "y_m"]),
-            )?,
-            replay: table(
-                "replay.csv",
-                header(["time_s", "id", "class", "x_m", "y_m", "z_m", "film_m"]),
-            )?,
+            retained,
+            partition,
+            pegging,
+            energy,
+            passages,
+            replay,
             liquid: wet("liquid.csv", volumes(&["bridges [m3]", "total [m3]"]))?,
             shared: wet("liquid_shared.csv", volumes(&["total [m3]"]))?,
-            bridges: wet(
-                "bridges.csv",
-                header([
-                    "time_s",
-                    "formed",
-                    "ruptured",
-                    "alive",
-                    "alive_wall",
-                    "mean_v_star",
-                    "extrapolated",
-                ]),
-            )?,
+            bridges: wet("bridges.csv", header(BRIDGES))?,
             diameters: scene.classes.iter().map(|class| class.diameter_mm).collect(),
             initial: derived.counts.clone(),
             masses: derived.masses.clone(),
@@ -264,12 +328,12 @@ pub(crate) fn masses(tally: &Tally, solid: &[f64], density: f64) -> (f64, Vec<f6
     (classes.iter().sum::<f64>() + density * held, classes)
 }
 
-/// Fractions retained Y and Y_i at one moment against another.
-pub(crate) fn retained(now: &Tally, first: &Tally, solid: &[f64], density: f64) -> (f64, Vec<f64>) {
+/// Fractions retained Y and Y_i against the masses at the start.
+pub(crate) fn retained(now: &Tally, start: &Start, solid: &[f64], density: f64) -> (f64, Vec<f64>) {
     let (total, classes) = masses(now, solid, density);
-    let (total0, classes0) = masses(first, solid, density);
     let share = |m: f64, m0: f64| if m0 > 0.0 { m / m0 } else { 0.0 };
-    (share(total, total0), classes.iter().zip(&classes0).map(|(m, m0)| share(*m, *m0)).collect())
+    let by_class = classes.iter().zip(&start.1).map(|(m, m0)| share(*m, *m0)).collect();
+    (share(total, start.0), by_class)
 }
 
 /// The wall parts of each group of the results.

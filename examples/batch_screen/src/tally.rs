@@ -2,6 +2,7 @@
 
 use pendular::dem::{Boundary, Simulation};
 use pendular::{Account, Counts, Ledger, MeshWalls};
+use serde::{Deserialize, Serialize};
 
 use crate::build::WetTerm;
 use crate::makeup::Makeup;
@@ -46,7 +47,7 @@ pub(crate) struct Tally {
 }
 
 /// What has left so far.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Gone {
     pub(crate) collected: Vec<u64>,
     pub(crate) fines: Vec<f64>,

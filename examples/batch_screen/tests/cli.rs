@@ -184,3 +184,91 @@ fn missing_and_broken_files() {
     let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
     assert!(said.contains("broken.stl"), "{said}");
 }
+
+/// Files whose bytes must not depend on whether a run was stopped.
+const TABLES: [&str; 9] = [
+    "retained.csv",
+    "partition.csv",
+    "pegging.csv",
+    "energy.csv",
+    "passages.csv",
+    "replay.csv",
+    "liquid.csv",
+    "liquid_shared.csv",
+    "bridges.csv",
+];
+
+#[test]
+fn a_killed_run_goes_on_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let whole = run(folder.path(), &["run", "small.toml", "--out", "whole", "--vtk", "0.03"]);
+    assert!(whole.status.success(), "{}", text(&whole.stderr));
+    // Killed at three moments spread over the run; each time it is taken up where it was.
+    let quick = ["--checkpoint-every", "0.02", "--threads", "1"];
+    let mut args = vec!["run", "small.toml", "--out", "cut", "--vtk", "0.03"];
+    for rows in [2, 4, 7] {
+        let mut child = program()
+            .current_dir(folder.path())
+            .args(&args)
+            .args(quick)
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        let table = folder.path().join("cut/retained.csv");
+        let written = || fs::read_to_string(&table).map_or(0, |t| t.lines().count());
+        while written() <= rows && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(3));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        args = vec!["resume", "cut"];
+    }
+    let last = run(folder.path(), &["resume", "cut"]);
+    assert!(last.status.success(), "{}", text(&last.stderr));
+    for table in TABLES {
+        let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
+        assert!(read("whole") == read("cut"), "{table} differs");
+    }
+    let frames = |run: &str| {
+        let list = fs::read_dir(folder.path().join(run).join("paraview")).unwrap();
+        let mut all: Vec<_> = list
+            .map(|entry| entry.unwrap())
+            .map(|entry| (entry.file_name(), fs::read(entry.path()).unwrap()))
+            .collect();
+        all.sort();
+        all
+    };
+    assert!(frames("whole").len() > 6 && frames("whole") == frames("cut"));
+    let imbalance = |run: &str| -> serde_json::Value {
+        let path = folder.path().join(run).join("summary.json");
+        let summary: serde_json::Value =
+            serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        summary["liquid_imbalance"].clone()
+    };
+    assert_eq!(imbalance("whole"), imbalance("cut"));
+    assert!(folder.path().join("cut/report.html").exists());
+}
+
+#[test]
+fn checkpoints_that_cannot_be_used_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let none = run(folder.path(), &["resume", "nowhere"]);
+    assert_eq!(none.status.code(), Some(1));
+    assert!(text(&none.stderr).contains("no checkpoint to go on from"));
+    let done = run(folder.path(), &["run", "small.toml", "--time", "0.01", "--out", "a"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let file = folder.path().join("a/checkpoint.bin");
+    let good = fs::read(&file).unwrap();
+    for (change, wanted) in [
+        (vec![1, 2, 3], "no checkpoint of this program"),
+        (good[..good.len() - 9].to_vec(), "checksum"),
+        ([&good[..8], &[9, 0, 0, 0], &good[12..]].concat(), "version 9"),
+    ] {
+        fs::write(&file, change).unwrap();
+        let said = text(&run(folder.path(), &["resume", "a"]).stderr);
+        assert!(said.contains(wanted), "{said}");
+    }
+}

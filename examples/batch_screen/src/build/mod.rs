@@ -4,6 +4,8 @@ pub(crate) mod apparatus;
 mod bed;
 mod laws;
 
+use std::path::Path;
+
 use glam::DVec3;
 use pendular::capillary::AnyCapillary;
 use pendular::contact::Linear;
@@ -14,7 +16,6 @@ use pendular::{MeshWalls, Wet};
 
 pub(crate) use self::bed::Source;
 use crate::error::SceneError;
-use crate::packing::Placed;
 use crate::scene::Scene;
 
 /// The liquid term of every scene: laws chosen at run time.
@@ -51,21 +52,43 @@ pub(crate) struct Derived {
 pub(crate) fn build(scene: &Scene, source: &Source<'_>) -> Result<Built, SceneError> {
     let classes = classes(scene)?;
     let contact = laws::contact(scene, &classes)?;
-    let dry_step = scene.time_step.unwrap_or_else(|| {
-        SHARE * Limit::packing(&classes, &contact.stability(&classes)).time_step
-    });
+    let dry_limit = Limit::packing(&classes, &contact.stability(&classes)).time_step;
+    let dry_step = scene.time_step.unwrap_or(SHARE * dry_limit);
     let placed = bed::place(scene, &classes, dry_step, source)?;
     let mut particles = Particles::new(classes.clone())?;
     for one in &placed {
         particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;
     }
-    let walls = apparatus::walls(scene, source.base)?;
-    let derived = derive(scene, &classes, &placed);
+    let class = placed.iter().map(|one| one.class).collect();
+    around(scene, source.base, source.threads, particles, class)
+}
+
+/// Builds what is around the particles of a stored run, whose classes by id are `class`.
+pub(crate) fn again(
+    scene: &Scene,
+    base: &Path,
+    threads: usize,
+    class: Vec<u16>,
+) -> Result<Built, SceneError> {
+    around(scene, base, threads, Particles::new(classes(scene)?)?, class)
+}
+
+fn around(
+    scene: &Scene,
+    base: &Path,
+    threads: usize,
+    particles: Particles,
+    class: Vec<u16>,
+) -> Result<Built, SceneError> {
+    let classes = particles.classes().to_vec();
+    let contact = laws::contact(scene, &classes)?;
+    let walls = apparatus::walls(scene, base)?;
+    let derived = derive(scene, &classes, class);
     let wet = match &scene.liquid {
         Some(spec) => Some(laws::wet(scene, spec, &classes, &derived, &walls)?),
         None => None,
     };
-    let settings = settings(scene, &classes, &contact, wet.as_ref(), source.threads);
+    let settings = settings(scene, &classes, &contact, wet.as_ref(), threads);
     Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
 }
 
@@ -77,9 +100,9 @@ fn classes(scene: &Scene) -> Result<Vec<Class>, SceneError> {
     Ok(scene.classes.iter().map(one).collect::<Result<_, _>>()?)
 }
 
-fn derive(scene: &Scene, classes: &[Class], placed: &[Placed]) -> Derived {
+fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
     let mut counts = vec![0; classes.len()];
-    placed.iter().for_each(|one| counts[usize::from(one.class)] += 1);
+    class.iter().for_each(|&one| counts[usize::from(one)] += 1);
     let masses: Vec<f64> = classes.iter().map(Class::mass).collect();
     let solid_mass = counts.iter().zip(&masses).map(|(&n, m)| n as f64 * m).sum();
     let spec = scene.liquid.as_ref();
@@ -87,7 +110,7 @@ fn derive(scene: &Scene, classes: &[Class], placed: &[Placed]) -> Derived {
         spec.map_or(0.0, |liquid| 0.01 * liquid.moisture_percent * solid_mass / liquid.density);
     Derived {
         film: film_thickness(classes, &counts, liquid),
-        class: placed.iter().map(|one| one.class).collect(),
+        class,
         counts,
         masses,
         solid_mass,

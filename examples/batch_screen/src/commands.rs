@@ -1,0 +1,211 @@
+//! What the commands do.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use pendular::dem::SimulationError;
+use signal_hook::consts::{SIGINT, SIGTERM};
+
+use crate::build::{self, Built, Source};
+use crate::checkpoint::Checkpoint;
+use crate::cli::{How, RunArgs};
+use crate::error::{RunError, SceneError};
+use crate::progress::{Progress, Style};
+use crate::run::{self, Job};
+use crate::scene::Scene;
+use crate::{builtin, page, report};
+
+/// Lists the built-in scenes.
+pub(crate) fn list() -> Result<(), RunError> {
+    for (name, text) in builtin::SCENES {
+        let scene = Scene::parse(text, Path::new(name))?;
+        println!("{name:<8} {}", scene.title);
+    }
+    Ok(())
+}
+
+/// Prints a built-in scene.
+pub(crate) fn show(name: &str) -> Result<(), RunError> {
+    let text = builtin::find(name).ok_or_else(|| unknown(name))?;
+    print!("{text}");
+    Ok(())
+}
+
+/// Writes the demo scene to a new file.
+pub(crate) fn sample(file: &Path) -> Result<(), RunError> {
+    let text = builtin::find("demo").unwrap_or_default();
+    let write = || fs::File::create_new(file)?.write_all(text.as_bytes());
+    write().map_err(|source| RunError::Write { path: file.to_path_buf(), source })?;
+    println!("wrote {0}; run it with: batch_screen run {0}", file.display());
+    Ok(())
+}
+
+fn unknown(name: &str) -> SceneError {
+    SceneError::Unknown { name: name.to_owned(), known: builtin::names() }
+}
+
+/// A scene by file or built-in name.
+struct Loaded {
+    scene: Scene,
+    text: String,
+    /// Folder that its paths are relative to.
+    base: PathBuf,
+    /// Name for the output folder.
+    name: String,
+}
+
+fn load(name: &str) -> Result<Loaded, SceneError> {
+    if let Some(text) = builtin::find(name) {
+        let scene = Scene::parse(text, Path::new(name))?;
+        let (text, base) = (text.to_owned(), PathBuf::new());
+        return Ok(Loaded { scene, text, base, name: name.to_owned() });
+    }
+    let path = Path::new(name);
+    if !path.exists() {
+        return Err(unknown(name));
+    }
+    let text = fs::read_to_string(path)
+        .map_err(|source| SceneError::Unreadable { file: path.to_path_buf(), source })?;
+    let scene = Scene::parse(&text, path)?;
+    let base = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let stem = path.file_stem().map_or_else(|| "run".into(), |s| s.to_string_lossy().into_owned());
+    Ok(Loaded { scene, text, base, name: stem })
+}
+
+/// Checks a scene and says what follows from it.
+pub(crate) fn check(name: &str) -> Result<(), RunError> {
+    let Loaded { scene, base, .. } = load(name)?;
+    let source = Source { base: &base, beds: None, threads: 1 };
+    let built = build::build(&scene, &source)?;
+    println!("{}", report::header(&scene, &built));
+    let limit = build::limit(&built);
+    let share = 100.0 * built.settings.time_step / limit.time_step;
+    let class = &scene.classes[limit.class].name;
+    println!(
+        "  limit        {:.3e} s, set by the {} of class {class}; the time step is {share:.0} % of it",
+        limit.time_step, limit.term
+    );
+    if share > 100.0 {
+        let too_long = SimulationError::TimeStep {
+            time_step: built.settings.time_step,
+            allowed: limit.time_step,
+            class: limit.class,
+            radius: 0.5e-3 * scene.classes[limit.class].diameter_mm,
+            term: limit.term,
+        };
+        return Err(SceneError::Simulation(too_long).into());
+    }
+    Ok(())
+}
+
+/// Runs a scene.
+pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
+    let Loaded { mut scene, text, base, name } = load(&args.scene)?;
+    scene.time = args.time.unwrap_or(scene.time);
+    scene.time_step = args.dt.or(scene.time_step);
+    scene.seed = args.seed.unwrap_or(scene.seed);
+    crate::check::check(&scene, Path::new("command line"))?;
+    if let Some(interval) = args.vtk {
+        crate::check::interval(Path::new("command line"), "vtk", interval)?;
+    }
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
+    let threads = threads(&args.how);
+    let source = Source { base: &base, beds: Some(&beds), threads };
+    let built = build::build(&scene, &source)?;
+    let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
+        .map_err(|source| RunError::Write { path: base.clone(), source })?;
+    let job = Job {
+        out,
+        source: args.scene.clone(),
+        text,
+        base,
+        vtk: args.vtk,
+        checkpoint_every: args.how.checkpoint_every,
+        stop: stop_flag(),
+    };
+    finish(&scene, built, &job, None, &args.how)
+}
+
+/// Goes on with a run from its last checkpoint.
+pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
+    let checkpoint = Checkpoint::read(folder)?;
+    let mut scene = Scene::parse(&checkpoint.scene, Path::new(&checkpoint.source))?;
+    scene.time = checkpoint.time;
+    scene.time_step = Some(checkpoint.time_step);
+    scene.seed = checkpoint.seed;
+    let class = checkpoint.class.clone();
+    let built = build::again(&scene, &checkpoint.base, threads(how), class)?;
+    println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
+    let job = Job {
+        out: folder.to_path_buf(),
+        source: checkpoint.source.clone(),
+        text: checkpoint.scene.clone(),
+        base: checkpoint.base.clone(),
+        vtk: checkpoint.vtk,
+        checkpoint_every: how.checkpoint_every,
+        stop: stop_flag(),
+    };
+    finish(&scene, built, &job, Some(checkpoint), how)
+}
+
+fn finish(
+    scene: &Scene,
+    built: Built,
+    job: &Job,
+    from: Option<Checkpoint>,
+    how: &How,
+) -> Result<(), RunError> {
+    let style = match (how.quiet, how.json) {
+        (true, _) => Style::Quiet,
+        (_, true) => Style::Json,
+        _ => Style::People,
+    };
+    let say = |text: &str| {
+        if style == Style::People {
+            println!("{text}");
+        }
+    };
+    say(&report::header(scene, &built));
+    let (settings, derived) = (built.settings, built.derived.clone());
+    let parts: Vec<String> = built.walls.0.parts().iter().map(|part| part.name.clone()).collect();
+    let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style))?;
+    say(&report::table(scene, &derived, &outcome));
+    let path = job.out.join("summary.json");
+    report::summary(&path, scene, &job.source, &settings, &derived, &outcome, &parts)?;
+    let page = page::report(&job.out)?;
+    say(&format!("results in {}, report in {}", job.out.display(), page.display()));
+    Ok(())
+}
+
+/// Makes the report of a run.
+pub(crate) fn report(folder: &Path) -> Result<(), RunError> {
+    println!("{}", page::report(folder)?.display());
+    Ok(())
+}
+
+/// Overlays runs on one page.
+pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), RunError> {
+    page::compare(folders, out)?;
+    println!("{}", out.display());
+    Ok(())
+}
+
+fn threads(how: &How) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    how.threads.unwrap_or(cores).max(1)
+}
+
+/// A flag that SIGINT and SIGTERM set, so that a run ends with a checkpoint. Where the system does
+/// not allow it, a signal ends the run at once, as it would have.
+fn stop_flag() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
+        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
+    }
+    stop
+}
