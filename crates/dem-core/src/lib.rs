@@ -10,6 +10,23 @@
 //! sum is fixed and results are the same to the bit on any number of threads and with any skin.
 //!
 //! Lengths are metres, masses kilograms, times seconds, spins radians per second.
+//!
+//! ```
+//! use pendular_dem_core::{Class, DVec3, NoWalls, Particles, Settings, Simulation};
+//! // A free fall of 0.1 s without any term: g t²/2.
+//! let mut particles = Particles::new(vec![Class::new(1e-3, 2500.0, 0)?])?;
+//! particles.push(0, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO)?;
+//! let mut simulation = Simulation::new(particles, (), NoWalls, Settings::new(1e-4))?;
+//! simulation.advance(1_000)?;
+//! let fallen = simulation.particles().iter().next().map_or(0.0, |p| -p.position.z);
+//! assert!((fallen - 0.5 * 9.81 * 0.01).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Sources
+//! Contact forces: see `pendular-contact`. Half-step normal: Vyas et al. (2025), Comput. Phys. Commun.
+//! 310, 109524. Limits of the step in packings: O'Sullivan & Bray (2004), Eng. Comput. 21, 278;
+//! Otsubo, O'Sullivan & Shire (2017), Comput. Geotech. 86, 67.
 
 mod boundary;
 mod chunk;
@@ -43,3 +60,8 @@ pub use particles::{Class, Particle, Particles};
 pub use profile::Profile;
 pub use simulation::{Departure, RollState, Settings, Simulation, Snapshot, WallMemory};
 pub use term::{PairTerm, TermError, Visit};
+
+/// The README's program runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

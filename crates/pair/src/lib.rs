@@ -5,7 +5,8 @@
 //! [`Validity`]; whoever asks for more gets an [`OutOfRange`] or, with [`Range::Extrapolate`], an
 //! answer that is known to be extrapolated.
 //!
-//! All quantities are SI `f64`: metres, cubic metres, newtons per metre, radians.
+//! All quantities are SI `f64`: metres, cubic metres, newtons per metre, radians. Against a wall the
+//! harmonic radius is 2 r, the reduced one r.
 //!
 //! ```
 //! use pendular_pair::{Bridge, Mate};
@@ -21,3 +22,8 @@ mod validity;
 pub use bridge::Bridge;
 pub use mate::Mate;
 pub use validity::{OutOfRange, Range, Validity};
+
+/// The README's program runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
