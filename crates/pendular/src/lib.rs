@@ -43,7 +43,9 @@ pub use pendular_pair as pair;
 pub use pendular_transfer as transfer;
 pub use pendular_walls as walls;
 pub use split::SplitMethod;
-pub use wet::{Bodies, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError, WetState};
+pub use wet::{
+    Bodies, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError, WetState,
+};
 
 /// The README's program runs as a test.
 #[cfg(doctest)]
