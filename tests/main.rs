@@ -6,6 +6,7 @@ mod curves;
 mod laws;
 mod layering;
 mod liquid;
+mod liquid_walls;
 mod mesh_walls;
 mod pull_off;
 mod rig;

@@ -1,13 +1,15 @@
 //! Set-ups that the tests through the whole core share.
 
 use pendular::{Bodies, Liquid, NoDrag, PairLaws, SplitMethod, WallElement, Wet};
-use pendular_capillary::{CapillaryLaw, ForceCurve};
+use pendular_capillary::{AnyCapillary, CapillaryLaw, ForceCurve};
 use pendular_contact::{Dashpot, Linear};
 use pendular_dem_core::{
-    Boundary, Class, Contact, DVec3, PairContact, PairTerm, Particle, Particles, Settings,
-    Simulation,
+    Boundary, Class, Contact, DVec3, Encounter, Load, Pair, PairContact, PairTerm, Particle,
+    Particles, Settings, Simulation, StabilityLoad,
 };
-use pendular_lubrication::{NormalDrag, TangentialDrag};
+use pendular_lubrication::{
+    AnyNormalDrag, AnyTangentialDrag, Gap, NormalDrag, NormalModel, TangentialDrag, TangentialModel,
+};
 use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
 use pendular_transfer::{AnyRupture, Dynamic, formation};
 use pendular_walls::Walls;
@@ -33,6 +35,34 @@ impl CapillaryLaw for NoPull {
 impl ForceCurve for NoPull {
     fn force(&self, _: f64) -> f64 {
         0.0
+    }
+}
+
+/// A constant force that presses the bodies of every pair together.
+#[derive(Debug)]
+pub(crate) struct Weight(pub(crate) f64);
+
+impl PairTerm for Weight {
+    type Column = ();
+
+    fn reach(&self) -> f64 {
+        1.0
+    }
+
+    fn idle(&self, _: &Encounter, (): &mut ()) -> bool {
+        false
+    }
+
+    fn load(&self, _: &Pair, (): &mut ()) -> Load {
+        Load { tension: self.0, ..Load::default() }
+    }
+
+    fn live(&self, (): &()) -> bool {
+        false
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+        vec![StabilityLoad::default(); classes.len()]
     }
 }
 
@@ -170,4 +200,19 @@ pub(crate) fn data_file(name: &str) -> std::path::PathBuf {
 /// A data file in TOML.
 pub(crate) fn toml(name: &str) -> toml::Table {
     std::fs::read_to_string(data_file(name)).unwrap().parse().unwrap()
+}
+
+/// A liquid with the laws of a screening scene, chosen by name.
+pub(crate) type AnyWet = Wet<AnyCapillary, AnyNormalDrag, AnyTangentialDrag>;
+
+/// Water on POM: Lambert, Pitois, Popov, the parabola's transfer ratio.
+pub(crate) fn any_wet(particles: &Particles, walls: Option<&Walls>, films: Vec<f64>) -> AnyWet {
+    let near = Gap::RelativeRoughness { fraction: 1e-3 }.into();
+    let laws = viscous_laws(
+        AnyCapillary::Lambert,
+        NormalModel::Pitois2000.with(near),
+        TangentialModel::Popov2010.with(near),
+    );
+    let bodies = bodies(particles, walls);
+    wet(liquid(0.07275, 1e-3, 0.6), laws, bodies, films, SplitMethod::Parabola)
 }

@@ -15,7 +15,7 @@ use pendular_lubrication::{
 };
 use pendular_pair::{Bridge, OutOfRange};
 
-use crate::rig::{self, NoPull};
+use crate::rig::{self, NoPull, Weight};
 
 /// MercuryDPM's lubrication: 6 π η R*²/S above R*/100, nothing below.
 #[derive(Debug, Clone, Copy)]
@@ -293,34 +293,6 @@ fn rigid_rotation_costs_nothing() {
             assert!(turned < 1e-5 * 5.0, "{}: {turned:e}", tangential.name());
         }
         assert_eq!(simulation.term().alive(), 1);
-    }
-}
-
-/// A constant force that presses the bodies of every pair together.
-#[derive(Debug)]
-struct Weight(f64);
-
-impl PairTerm for Weight {
-    type Column = ();
-
-    fn reach(&self) -> f64 {
-        1.0
-    }
-
-    fn idle(&self, _: &Encounter, (): &mut ()) -> bool {
-        false
-    }
-
-    fn load(&self, _: &Pair, (): &mut ()) -> Load {
-        Load { tension: self.0, ..Load::default() }
-    }
-
-    fn live(&self, (): &()) -> bool {
-        false
-    }
-
-    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
-        vec![StabilityLoad::default(); classes.len()]
     }
 }
 
