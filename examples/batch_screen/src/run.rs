@@ -129,10 +129,12 @@ impl<'a, T: Makeup> Run<'a, T> {
         derived: Derived,
         job: &'a Job,
     ) -> Result<Self, RunError> {
-        let tables = Tables::create(&job.out, scene, &derived, &part_names(&simulation))?;
         let screening = Screening::new(scene, derived.class.len());
         let classes = scene.classes.len();
         let gone = Gone { collected: vec![0; classes], fines: vec![0.0; classes], escaped: 0 };
+        let first = Tally::of(&simulation, &gone, &screening.passed);
+        let names = part_names(&simulation);
+        let tables = Tables::create(&job.out, scene, &derived, &names, &first)?;
         let apertures = screening.apertures();
         let vtk = match job.vtk {
             Some(_) => Some(Series::create(&job.out.join("paraview"))?),

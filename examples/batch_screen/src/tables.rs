@@ -91,22 +91,25 @@ pub(crate) struct Tables {
     initial: Vec<u64>,
     masses: Vec<f64>,
     density: f64,
-    start: Option<Start>,
+    start: Start,
     groups: Vec<(String, Vec<usize>)>,
 }
 
 impl Tables {
-    /// Creates the folder and the tables with their headers.
+    /// Creates the folder and the tables with their headers; `first` is the state at the start.
     pub(crate) fn create(
         folder: &Path,
         scene: &Scene,
         derived: &Derived,
         parts: &[String],
+        first: &Tally,
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
         let create = |name: &str, cells: Vec<String>| Table::create(folder, name, &cells);
-        Self::open(scene, derived, parts, create)
+        let mut tables = Self::open(scene, derived, parts, create)?;
+        tables.start = masses(first, &tables.masses, tables.density);
+        Ok(tables)
     }
 
     /// Goes on with the tables of a folder from their lengths at a checkpoint.
@@ -122,7 +125,7 @@ impl Tables {
         let reopen =
             |name: &str, _| Table::reopen(folder, name, lengths.next().unwrap_or(u64::MAX));
         let mut tables = Self::open(scene, derived, parts, reopen)?;
-        tables.start = Some(start);
+        tables.start = start;
         Ok(tables)
     }
 
@@ -140,9 +143,9 @@ impl Tables {
         dry.into_iter().chain(wet).map(Table::length).collect()
     }
 
-    /// Masses at the start, once a row has been written.
+    /// Masses at the start.
     pub(crate) fn start(&self) -> Start {
-        self.start.clone().unwrap_or_default()
+        self.start.clone()
     }
 
     /// Opens every table with its header, in a fixed order.
@@ -193,7 +196,7 @@ impl Tables {
             initial: derived.counts.clone(),
             masses: derived.masses.clone(),
             density: scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density),
-            start: None,
+            start: Start::default(),
             names,
             groups,
         })
@@ -231,7 +234,7 @@ impl Tables {
 
     fn retained_row(&mut self, tally: &Tally, time: &str) -> Result<(), RunError> {
         let now = masses(tally, &self.masses, self.density);
-        let (total, classes) = self.start.get_or_insert_with(|| now.clone());
+        let (total, classes) = &self.start;
         let share = |now: f64, initial: f64| if initial > 0.0 { now / initial } else { 0.0 };
         let mut cells = vec![time.to_owned(), number(share(now.0, *total))];
         cells.extend(now.1.iter().zip(classes).map(|(m, m0)| number(share(*m, *m0))));

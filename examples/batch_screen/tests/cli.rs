@@ -204,10 +204,10 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
     fs::write(folder.path().join("small.toml"), small()).unwrap();
     let whole = run(folder.path(), &["run", "small.toml", "--out", "whole", "--vtk", "0.03"]);
     assert!(whole.status.success(), "{}", text(&whole.stderr));
-    // Killed at three moments spread over the run; each time it is taken up where it was.
+    // Killed at three moments, the first before any row; each time it is taken up where it was.
     let quick = ["--checkpoint-every", "0.02", "--threads", "1"];
     let mut args = vec!["run", "small.toml", "--out", "cut", "--vtk", "0.03"];
-    for rows in [2, 4, 7] {
+    for rows in [0, 3, 6] {
         let mut child = program()
             .current_dir(folder.path())
             .args(&args)
