@@ -2,8 +2,24 @@
 //!
 //! Every law is a small value that turns a [`Bridge`] into a *curve*, the force over the gap, with
 //! everything that is constant over the bridge's life folded once. [`AnyCapillary`] chooses among the
-//! laws by name. The exact bridge is in [`young_laplace`].
+//! laws by name. The exact bridge is in [`young_laplace`], a fast table of it in [`tabulated`], and
+//! [`mod@advise`] says which law is good enough for given bridges.
 //!
+//! Gaps are metres, volumes cubic metres, contact angles radians, surface tensions N/m; forces are N,
+//! tension (attraction) positive. An overlap reads as gap 0.
+//!
+//! ```
+//! use pendular_capillary::{AnyCapillary, Bridge, CapillaryLaw, ForceCurve, Mate, Range};
+//! let bridge = Bridge::new(1e-3, Mate::Sphere { radius: 2e-3 }, 1e-11, [0.2; 2], 0.07275)?;
+//! let exact = AnyCapillary::YoungLaplace.curve(&bridge, Range::Strict)?;
+//! let fit = AnyCapillary::WillettFull.curve(&bridge, Range::Strict)?;
+//! assert!((fit.force(5e-5) / exact.force(5e-5) - 1.0).abs() < 0.04);
+//! # Ok::<(), pendular_capillary::OutOfRange>(())
+//! ```
+//!
+//! Sources and ranges stand on the page of each law.
+//!
+//! # Not here
 //! The force of Mikami, Kamiya & Horio (1998), Chem. Eng. Sci. 53, 1927, is not here: its
 //! coefficients could not be confirmed. Two public codes disagree. One has those of
 //! [`Soulie2006`]; those of the other meet the exact bridge within 12 % up to 0.9 of the rupture gap
