@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
+use pendular::dem::DVec3;
 
 /// Measures the speed of whole scenes.
 ///
@@ -33,6 +34,9 @@ struct Cli {
     /// Half side of the box of the beds, m; from the spheres where it is left out.
     #[arg(long)]
     half: Option<f64>,
+    /// Puts copies of the bed side by side, so many along x and along y.
+    #[arg(long, value_name = "NX,NY", value_delimiter = ',', num_args = 1, default_value = "1,1")]
+    tile: Vec<u32>,
     /// Screen wires as prisms of triangles with this many sides instead of exact cylinders.
     #[arg(long, value_name = "SIDES")]
     mesh: Option<u32>,
@@ -87,7 +91,17 @@ fn main() -> ExitCode {
 
 fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
     let bed = scene::Bed::read(&cli.particles)?;
-    let walls = scene::walls(cli.scene.has_screen(), cli.mesh, cli.half.unwrap_or(bed.half()))?;
+    let half = cli.half.unwrap_or(bed.half());
+    let &[nx, ny] = cli.tile.as_slice() else {
+        return Err(format!("--tile needs two numbers, got {:?}", cli.tile).into());
+    };
+    let tiled = (nx, ny) != (1, 1);
+    if nx == 0 || ny == 0 || (tiled && cli.scene.has_screen()) {
+        return Err("--tile needs two positive numbers and a bed in a box".into());
+    }
+    let bed = if tiled { bed.tiled([nx, ny], half)? } else { bed };
+    let sides = half * DVec3::new(f64::from(nx), f64::from(ny), 1.0);
+    let walls = scene::walls(cli.scene.has_screen(), cli.mesh, sides)?;
     let mut settings = scene::settings(cli.threads);
     (settings.skin, settings.inner_skin) = (cli.skin, cli.inner_skin);
     let result = if cli.scene.is_wet() {

@@ -61,6 +61,22 @@ impl Bed {
         Ok(Self { particles, class: rows.iter().map(|row| row.0).collect(), widest })
     }
 
+    /// The bed side by side with copies of itself, in boxes of the given half side.
+    pub(crate) fn tiled(self, [nx, ny]: [u32; 2], half: f64) -> Result<Self, Box<dyn Error>> {
+        let mut particles = Particles::new(self.particles.classes().to_vec())?;
+        let mut class = Vec::new();
+        for k in 0..nx * ny {
+            let place = |k: u32, n: u32| (2.0 * f64::from(k) - f64::from(n - 1)) * half;
+            let shift = DVec3::new(place(k % nx, nx), place(k / nx, ny), 0.0);
+            for particle in self.particles.iter() {
+                let x = particle.position + shift;
+                particles.push(particle.class, x, DVec3::ZERO, DVec3::ZERO)?;
+                class.push(particle.class);
+            }
+        }
+        Ok(Self { particles, class, widest: self.widest })
+    }
+
     /// Half side of the box that holds the bed: the spheres' extent, to a tenth of a millimetre.
     pub(crate) fn half(&self) -> f64 {
         (self.widest * 2e4).round() / 2e4
@@ -73,8 +89,9 @@ fn shake() -> Motion {
     Motion::harmonic(Harmonic { amplitude, frequency: FREQUENCY, phase: -FRAC_PI_2 })
 }
 
-/// The box with its vibrating floor, or the pipe with its vibrating screen.
-pub(crate) fn walls(screen: bool, mesh: Option<u32>, half: f64) -> Result<MeshWalls, WallError> {
+/// The box with its vibrating floor, or the pipe with its vibrating screen; `half` are the half
+/// sides of the box along x and y, m.
+pub(crate) fn walls(screen: bool, mesh: Option<u32>, half: DVec3) -> Result<MeshWalls, WallError> {
     let mut parts = Vec::new();
     if screen {
         let frame = Frame::new(DVec3::Z * -0.1, DVec3::Z * 0.3, PIPE, [36, 16])?;
