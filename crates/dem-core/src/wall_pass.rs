@@ -47,7 +47,8 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     let Place { x, r } = view.places[wall.slot as usize];
     let live = wall.memories.iter().any(|m| term.live(&m.column));
     if let Some(touch) = boundary.single_touch(wall.part, x, r) {
-        if !live && !(touch.gap <= reach) {
+        let near = touch.gap <= reach;
+        if !live && !near {
             wall.memories.clear();
             return;
         }
@@ -63,8 +64,11 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     let reach = if live { f64::INFINITY } else { reach };
     let candidates = &chunk.pool[wall.candidates.clone()];
     boundary.touches(wall.part, candidates, x, r, reach, &mut chunk.touches);
-    if !live && !chunk.touches.iter().any(|t| t.gap <= reach) {
-        wall.memories.clear();
+    if !chunk.touches.iter().any(|t| t.gap <= reach) {
+        // A live pair is kept until the term lets go of it, also where no touch is found.
+        if !live {
+            wall.memories.clear();
+        }
         return;
     }
     remember(term, &chunk.touches, &mut wall.memories, &mut chunk.memories);

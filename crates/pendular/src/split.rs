@@ -1,4 +1,5 @@
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use pendular_pair::{Bridge, Mate};
 use pendular_transfer::split::{TransferTable, exact};
@@ -51,10 +52,12 @@ impl Splits {
         };
         let [first, second] = bridge.contact_angles();
         let key = [bridge.radius(), size, first, second].map(f64::to_bits);
-        if !self.tables.contains_key(&key) {
-            let table = TransferTable::for_pair(bridge.radius(), bridge.mate(), [first, second])?;
-            self.tables.insert(key, table);
-        }
-        Ok(&self.tables[&key])
+        Ok(match self.tables.entry(key) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => {
+                let angles = [first, second];
+                place.insert(TransferTable::for_pair(bridge.radius(), bridge.mate(), angles)?)
+            }
+        })
     }
 }

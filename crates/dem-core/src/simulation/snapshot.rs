@@ -6,7 +6,7 @@ use super::neighbours::Carried;
 use super::{Settings, Simulation};
 use crate::chunk::{Memory, Roll};
 use crate::particles::{Place, Velocity};
-use crate::{Boundary, Particle, ParticleError, Particles, PairTerm, SimulationError, Touch};
+use crate::{Boundary, PairTerm, Particle, ParticleError, Particles, SimulationError, Touch};
 
 /// A particle's rolling state: the spin that the last step's torques gave, and its contacts.
 pub type RollState = (DVec3, f64);
@@ -110,7 +110,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let there = |id: u32| known.get(id as usize) == Some(&true);
         let pairs_fit = pairs.iter().all(|(ids, _)| ids.iter().all(|&id| there(id)));
         if !pairs_fit || !walls.iter().all(|wall| there(wall.particle)) {
-            return Err(SimulationError::Snapshot { what: "pairs of particles that are not there" });
+            return Err(SimulationError::Snapshot {
+                what: "pairs of particles that are not there",
+            });
         }
         let walls = walls.into_iter().map(|wall| {
             let memory = |(touch, column)| Memory { touch, column };
@@ -139,7 +141,10 @@ impl Particles {
             let kind = self.classes().get(usize::from(class));
             let r = kind.ok_or(ParticleError::UnknownClass { class, classes })?.radius();
             if id >= created {
-                return Err(ParticleError::TooMany { what: "particles", allowed: created as usize });
+                return Err(ParticleError::TooMany {
+                    what: "particles",
+                    allowed: created as usize,
+                });
             }
             self.places.push(Place { x: position, r });
             self.velocities.push(Velocity { v: velocity, w: spin });
