@@ -1,0 +1,1 @@
+//! Benchmarks of the kernels; see the README beside this package.
