@@ -6,6 +6,7 @@
 use std::ops::{Add, AddAssign, Div, IndexMut, Mul, Neg, Sub};
 
 use glam::DVec3;
+use wide::f64x4;
 
 /// One number, or several of independent pairs side by side.
 pub trait Lane:
@@ -107,8 +108,7 @@ impl Lane for f64 {
 
 /// Four numbers side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(align(32))]
-pub struct Four([f64; 4]);
+pub struct Four(f64x4);
 
 macro_rules! four_operator {
     ($($trait:ident $method:ident $operator:tt)+) => {$(
@@ -117,12 +117,7 @@ macro_rules! four_operator {
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self([
-                    self.0[0] $operator other.0[0],
-                    self.0[1] $operator other.0[1],
-                    self.0[2] $operator other.0[2],
-                    self.0[3] $operator other.0[3],
-                ])
+                Self(self.0 $operator other.0)
             }
         }
     )+};
@@ -135,7 +130,7 @@ impl Neg for Four {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self([-self.0[0], -self.0[1], -self.0[2], -self.0[3]])
+        Self(-self.0)
     }
 }
 
@@ -152,60 +147,42 @@ impl Lane for Four {
 
     #[inline(always)]
     fn pack<T>(from: &[T; 4], read: impl Fn(&T) -> f64) -> Self {
-        Self([read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])])
+        Self(f64x4::new([read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])]))
     }
 
     #[inline(always)]
     fn unpack(self) -> [f64; 4] {
-        self.0
+        self.0.to_array()
     }
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Self([value; 4])
+        Self(f64x4::splat(value))
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self([self.0[0].sqrt(), self.0[1].sqrt(), self.0[2].sqrt(), self.0[3].sqrt()])
+        Self(self.0.sqrt())
     }
 
     #[inline(always)]
     fn least(self, other: Self) -> Self {
-        Self([
-            Lane::least(self.0[0], other.0[0]),
-            Lane::least(self.0[1], other.0[1]),
-            Lane::least(self.0[2], other.0[2]),
-            Lane::least(self.0[3], other.0[3]),
-        ])
+        Self(self.0.fast_min(other.0))
     }
 
     #[inline(always)]
     fn most(self, other: Self) -> Self {
-        Self([
-            Lane::most(self.0[0], other.0[0]),
-            Lane::most(self.0[1], other.0[1]),
-            Lane::most(self.0[2], other.0[2]),
-            Lane::most(self.0[3], other.0[3]),
-        ])
+        Self(self.0.fast_max(other.0))
     }
 
     #[inline(always)]
     fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self {
-        Self([
-            self.0[0].if_less(bound.0[0], then.0[0], otherwise.0[0]),
-            self.0[1].if_less(bound.0[1], then.0[1], otherwise.0[1]),
-            self.0[2].if_less(bound.0[2], then.0[2], otherwise.0[2]),
-            self.0[3].if_less(bound.0[3], then.0[3], otherwise.0[3]),
-        ])
+        Self(self.0.simd_lt(bound.0).bitselect(then.0, otherwise.0))
     }
 
     #[inline(always)]
     fn any_less(self, bound: Self) -> bool {
-        (self.0[0] < bound.0[0])
-            | (self.0[1] < bound.0[1])
-            | (self.0[2] < bound.0[2])
-            | (self.0[3] < bound.0[3])
+        self.0.simd_lt(bound.0).any()
     }
 }
 

@@ -112,10 +112,29 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
 ) {
     let start = Instant::now();
     let Chunk { range, inside, across, sums, rolls, notes, overlap, pair_time, .. } = chunk;
-    let mut out = Out { range, sums, rolls, notes, overlap };
-    list::<T, ROLLS, true>(view, term, inside, &mut out);
-    list::<T, ROLLS, false>(view, term, across, &mut out);
+    let out = Out { range, sums, rolls, notes, overlap };
+    // The widest registers that this machine has; the same operations, the same bits.
+    pulp::Arch::new().dispatch(Both::<'_, '_, T, ROLLS> { view, term, inside, across, out });
     *pair_time += start.elapsed();
+}
+
+/// Both lists of a chunk.
+struct Both<'v, 'a, T: PairTerm, const ROLLS: bool> {
+    view: &'a View<'v>,
+    term: &'a T,
+    inside: &'a mut PairList<T::Column>,
+    across: &'a mut PairList<T::Column>,
+    out: Out<'a>,
+}
+
+impl<T: PairTerm, const ROLLS: bool> pulp::NullaryFnOnce for Both<'_, '_, T, ROLLS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        list::<T, ROLLS, true>(self.view, self.term, self.inside, &mut self.out);
+        list::<T, ROLLS, false>(self.view, self.term, self.across, &mut self.out);
+    }
 }
 
 struct Out<'a> {
@@ -130,6 +149,7 @@ struct Out<'a> {
 ///
 /// `INSIDE`: both particles are the chunk's own; else the load goes to one of them only, computed
 /// in the same orientation as the chunk of the other one does.
+#[inline(always)]
 fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     view: &View<'_>,
     term: &T,
