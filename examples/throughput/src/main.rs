@@ -46,6 +46,9 @@ struct Cli {
     /// Skin of the active lists, m.
     #[arg(long)]
     inner_skin: Option<f64>,
+    /// Writes the final centres as CSV, `id,x,y,z` (m), ids counted from 0.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     /// Also prints kinetic energy, mean overlap, mean coordination and where the time went.
     #[arg(long)]
     check: bool,
@@ -122,6 +125,9 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         result.particles as f64 * cli.steps as f64 / result.seconds,
         measure::peak_memory()
     );
+    if let Some(path) = &cli.out {
+        std::fs::write(path, &result.centres)?;
+    }
     if cli.check {
         println!("{}", result.check);
     }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use pendular::MeshWalls;
-use pendular::dem::{PairTerm, Particles, Settings, Simulation, SimulationError};
+use pendular::dem::{DVec3, PairTerm, Particles, Settings, Simulation, SimulationError};
 
 /// What a measurement gives.
 pub(crate) struct Measured {
@@ -11,6 +11,8 @@ pub(crate) struct Measured {
     pub(crate) seconds: f64,
     /// State and profile at the end, for people.
     pub(crate) check: String,
+    /// Centres at the end, as CSV.
+    pub(crate) centres: String,
 }
 
 /// Runs `warm` steps, then times `steps`.
@@ -55,7 +57,15 @@ pub(crate) fn run<T: PairTerm>(
         part(after.settling, before.settling),
         part(after.integration, before.integration),
     );
-    Ok(Measured { particles: n, seconds, check })
+    let centres = centres(&simulation);
+    Ok(Measured { particles: n, seconds, check, centres })
+}
+
+fn centres<T: PairTerm>(simulation: &Simulation<T, MeshWalls>) -> String {
+    let mut all: Vec<_> = simulation.particles().iter().map(|p| (p.id, p.position)).collect();
+    all.sort_by_key(|(id, _)| *id);
+    let row = |(id, x): &(u32, DVec3)| format!("{id},{:e},{:e},{:e}\n", x.x, x.y, x.z);
+    std::iter::once("id,x,y,z\n".to_owned()).chain(all.iter().map(row)).collect()
 }
 
 /// Peak resident memory of this process, MB; 0 where the system does not say.
