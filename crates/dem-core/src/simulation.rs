@@ -4,61 +4,26 @@ use glam::DVec3;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use crate::chunk::{Chunk, List, Note, Roll, WallPair};
+use crate::chunk::{Chunk, List, Note, Roll};
 use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
-use crate::order::chunk_size;
-use crate::particles::{Particles, Place};
+use crate::particles::Particles;
 use crate::pass::{self, View};
 use crate::{Boundary, PairTerm, Profile, SimulationError, Visit, wall_pass};
 
+mod leaving;
 mod neighbours;
+mod settings;
 mod snapshot;
 
+pub use settings::Settings;
+use settings::{check, threads};
 pub use snapshot::{RollState, Snapshot, WallMemory};
 
 /// Steps between looks for particles that left the scene or walls that were taken away.
 const LEAVE_EVERY: u64 = 64;
 /// Steps between sortings of the particles. Constant: the order decides the order of sums.
 const SORT_EVERY: u64 = 16_384;
-
-/// What a simulation needs to know besides bodies and laws.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Time step, s.
-    pub time_step: f64,
-    /// Gravity, m/s².
-    pub gravity: DVec3,
-    /// Threads; results do not depend on them.
-    pub threads: usize,
-    /// Corners of the box that particles may be in, m; one outside leaves the scene.
-    pub domain: Option<(DVec3, DVec3)>,
-    /// Skin of the outer neighbour lists, m; `None` chooses it. Results do not depend on it.
-    pub skin: Option<f64>,
-    /// Skin of the active lists, m; `None` chooses it. Results do not depend on it.
-    pub inner_skin: Option<f64>,
-    /// Largest overlap at the start, as a share of the smaller radius.
-    pub start_overlap: f64,
-    /// Goes on with a time step above the stability limit.
-    pub allow_unstable: bool,
-}
-
-impl Settings {
-    /// Earth's gravity along −z, one thread, no bounds, at most 5 % overlap at the start.
-    #[must_use]
-    pub fn new(time_step: f64) -> Self {
-        Self {
-            time_step,
-            gravity: DVec3::new(0.0, 0.0, -9.81),
-            threads: 1,
-            domain: None,
-            skin: None,
-            inner_skin: None,
-            start_overlap: 0.05,
-            allow_unstable: false,
-        }
-    }
-}
 
 /// A particle that left the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -384,185 +349,5 @@ fn each<C: Send>(chunks: &mut [Chunk<C>], one: impl Fn(&mut Chunk<C>) + Sync + S
         chunks.par_iter_mut().for_each(one);
     } else {
         chunks.iter_mut().for_each(one);
-    }
-}
-
-fn threads(threads: usize) -> Result<Option<ThreadPool>, SimulationError> {
-    if threads <= 1 {
-        return Ok(None);
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let failed = |e: rayon::ThreadPoolBuildError| SimulationError::Threads {
-        threads,
-        reason: e.to_string(),
-    };
-    pool.map(Some).map_err(failed)
-}
-
-fn check<T: PairTerm>(
-    particles: &Particles,
-    term: &T,
-    settings: &Settings,
-) -> Result<Limit, SimulationError> {
-    let given = [
-        ("time step", Some(settings.time_step)),
-        ("skin", settings.skin),
-        ("inner skin", settings.inner_skin),
-        ("start overlap", Some(settings.start_overlap)),
-    ];
-    for (quantity, value) in given {
-        if let Some(value) = value.filter(|v| !(*v > 0.0 && *v < f64::INFINITY)) {
-            return Err(SimulationError::Setting { quantity, value });
-        }
-    }
-    let classes = particles.classes();
-    let limit = Limit::packing(classes, &term.stability(classes));
-    if settings.time_step > limit.time_step && !settings.allow_unstable {
-        return Err(SimulationError::TimeStep {
-            time_step: settings.time_step,
-            allowed: limit.time_step,
-            class: limit.class,
-            radius: classes[limit.class].radius(),
-            term: limit.term,
-        });
-    }
-    Ok(limit)
-}
-
-impl<T: PairTerm, B: Boundary> Simulation<T, B> {
-    fn check_overlaps(&mut self) -> Result<(), SimulationError> {
-        self.refresh();
-        let share = self.settings.start_overlap;
-        let view = self.view();
-        let fail = |encounter: crate::Encounter, allowed: f64| {
-            let (first, second, overlap) = (encounter.first, encounter.second, -encounter.gap);
-            Err(SimulationError::StartOverlap { first, second, overlap, allowed })
-        };
-        for chunk in &self.chunks {
-            for &entry in chunk.inside.active.iter().chain(&chunk.across.active) {
-                let encounter = view.meet(entry);
-                let [a, b] = entry.map(|slot| view.places[slot as usize].r);
-                if -encounter.gap > share * a.min(b) {
-                    return fail(encounter, share * a.min(b));
-                }
-            }
-            let mut touches = Vec::new();
-            for wall in &chunk.walls {
-                let Place { x, r } = view.places[wall.slot as usize];
-                let near = &chunk.pool[wall.candidates.clone()];
-                self.boundary.touches(wall.part, near, x, r, 0.0, &mut touches);
-                let deepest = touches.first().filter(|t| -t.gap > share * r);
-                if let Some(touch) = deepest {
-                    let pair = wall_pass::ending(&view, &self.boundary, wall, touch);
-                    return fail(pair.encounter, share * r);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Lets go of particles outside the domain and of walls that are no longer there, after a last
-    /// visit of the term to every pair that ends with them.
-    fn leave(&mut self) -> Result<(), SimulationError> {
-        let outside = |x: DVec3| {
-            self.settings
-                .domain
-                .is_some_and(|(low, high)| !(x.cmpge(low).all() && x.cmple(high).all()))
-        };
-        let places = self.particles.places.iter().enumerate();
-        let leaving: Vec<u32> =
-            places.filter(|(_, p)| outside(p.x)).map(|(slot, _)| slot as u32).collect();
-        self.end_pairs(&leaving)?;
-        if leaving.is_empty() {
-            return Ok(());
-        }
-        let time = self.time();
-        let mut gone: Vec<_> = leaving
-            .iter()
-            .map(|&slot| Departure { particle: self.particles.particle(slot as usize), time })
-            .collect();
-        gone.sort_by_key(|d| d.particle.id);
-        self.departures.extend(gone);
-        self.sort(&leaving);
-        Ok(())
-    }
-
-    fn end_pairs(&mut self, leaving: &[u32]) -> Result<(), SimulationError> {
-        let goes = |slot: u32| leaving.binary_search(&slot).is_ok();
-        let (term, boundary) = (&self.term, &self.boundary);
-        let view = self.view();
-        let stays = |wall: &WallPair<T::Column>| !goes(wall.slot) && boundary.is_present(wall.part);
-        let mut visits: Vec<Visit<T::Column>> = Vec::new();
-        for chunk in &self.chunks {
-            if !leaving.is_empty() {
-                for (list, across) in [(&chunk.inside, false), (&chunk.across, true)] {
-                    for (&entry, column) in list.active.iter().zip(&list.columns) {
-                        let ends = goes(entry[0]) || goes(entry[1]);
-                        let ours = !across || chunk.range.contains(&entry[0]);
-                        if ends && ours && term.live(column) {
-                            let pair = view.pairs::<f64, false>([entry]).pair(0);
-                            visits.push(Visit { pair, column: *column, ending: true });
-                        }
-                    }
-                }
-            }
-            for wall in &chunk.walls {
-                if wall.memories.is_empty() || stays(wall) {
-                    continue;
-                }
-                let live = wall.memories.iter().filter(|m| term.live(&m.column));
-                visits.extend(live.map(|m| Visit {
-                    pair: wall_pass::ending(&view, boundary, wall, &m.touch),
-                    column: m.column,
-                    ending: true,
-                }));
-            }
-        }
-        for chunk in &mut self.chunks {
-            chunk.walls.retain(&stays);
-        }
-        if visits.is_empty() {
-            return Ok(());
-        }
-        visits.sort_by_key(|v| (v.pair.encounter.first, v.pair.encounter.second));
-        let time = self.time();
-        self.term.settle(&mut visits).map_err(|source| SimulationError::Term { time, source })
-    }
-
-    /// Sorts the particles along the Morton curve, without those in `leaving`, cuts them into new
-    /// chunks and carries every live column over.
-    fn sort(&mut self, leaving: &[u32]) {
-        let start = Instant::now();
-        let carried = neighbours::Carried::collect(self, leaving);
-        let slots: Vec<u32> = if leaving.is_empty() {
-            crate::order::morton(&self.particles)
-        } else {
-            let all = 0..self.particles.len() as u32;
-            all.filter(|slot| leaving.binary_search(slot).is_err()).collect()
-        };
-        self.particles.arrange(&slots);
-        if !self.rolls.is_empty() {
-            self.rolls = slots.iter().map(|&s| self.rolls[s as usize]).collect();
-        }
-        self.cut(carried);
-        self.profile.neighbours += start.elapsed();
-    }
-
-    /// Cuts the particles, in the order they stand in, into chunks that own the carried columns.
-    fn cut(&mut self, carried: neighbours::Carried<T::Column>) {
-        let size = chunk_size(self.particles.len());
-        self.lists.renew(&self.particles, size);
-        for chunk in &self.chunks {
-            self.lists.overlap = self.lists.overlap.max(chunk.overlap);
-            self.profile.pairs += chunk.pair_time;
-            self.profile.walls += chunk.wall_time;
-        }
-        let n = self.particles.len() as u32;
-        let rolls = !self.rolls.is_empty();
-        self.chunks = (0..n)
-            .step_by(size)
-            .map(|first| Chunk::new(first..n.min(first + size as u32), rolls))
-            .collect();
-        carried.hand_out(self);
     }
 }

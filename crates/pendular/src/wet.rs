@@ -1,4 +1,5 @@
 mod act;
+mod bodies;
 mod state;
 
 use act::{Pull, act};
@@ -18,91 +19,12 @@ use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
 
 /// Smallest V* of a bridge where no other is asked for.
 const SMALLEST_V_STAR: f64 = 1e-9;
+pub use bodies::{Bodies, Counts, WallElement, WetError};
+use bodies::{check, parameter};
 pub use state::{LiveState, WetState};
 
 /// No bridge.
 const DRY: u32 = u32::MAX;
-
-/// Why the liquid term could not go on.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum WetError {
-    /// A law does not take the bridge that has formed.
-    #[error("bridge of {volume:.3e} m^3 between particle {first} and {second:?}: {source}")]
-    Law {
-        /// The first body.
-        first: u32,
-        /// The second body.
-        second: Partner,
-        /// The bridge's volume, m³.
-        volume: f64,
-        /// What the law said.
-        source: OutOfRange,
-    },
-    /// No transfer ratio is known for the bridge that has formed.
-    #[error("bridge of {volume:.3e} m^3 between particle {first} and {second:?}: {source}")]
-    Transfer {
-        /// The first body.
-        first: u32,
-        /// The second body.
-        second: Partner,
-        /// The bridge's volume, m³.
-        volume: f64,
-        /// What the split said.
-        source: TransferError,
-    },
-    /// A parameter of the liquid is not usable.
-    #[error(transparent)]
-    Parameter(#[from] OutOfRange),
-    /// A material has no contact angle.
-    #[error("no contact angle for {what} material {material}: {known} are given")]
-    NoAngle {
-        /// `particle` or `wall`.
-        what: &'static str,
-        /// The material's index.
-        material: usize,
-        /// How many angles are given.
-        known: usize,
-    },
-}
-
-/// A wall element as the liquid sees it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallElement {
-    /// Area over which its film lies, m².
-    pub area: f64,
-}
-
-/// The bodies of a scene as the liquid sees them.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Bodies {
-    /// Class of each particle, by id.
-    pub class: Vec<u16>,
-    /// Radius of each class, m.
-    pub radii: Vec<f64>,
-    /// Material of each class.
-    pub materials: Vec<u8>,
-    /// Half side of each wall part, m; infinite for a large wall.
-    pub half_sides: Vec<f64>,
-    /// Material of each wall part.
-    pub wall_materials: Vec<u8>,
-    /// First element of each wall part in `elements`.
-    pub first_elements: Vec<u32>,
-    /// Elements of all wall parts.
-    pub elements: Vec<WallElement>,
-}
-
-/// How many bridges there were.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
-    /// Bridges formed.
-    pub formed: u64,
-    /// Bridges ruptured, those of bodies that left included.
-    pub ruptured: u64,
-    /// Bridges formed outside the validity range of their capillary or rupture law, or of the
-    /// table of transfer ratios.
-    pub extrapolated: u64,
-}
 
 /// What a pair remembers of its bridge; all that [`Wet::load`](PairTerm::load) needs of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -451,42 +373,6 @@ where
         let from = Account::Bridge(bridge);
         [Move { from, to: to_first, volume: first }, Move { from, to: to_second, volume: second }]
     }
-}
-
-fn parameter(error: TransferError) -> OutOfRange {
-    match error {
-        TransferError::OutOfRange(source) => source,
-        // A film has no other way to be wrong.
-        _ => OutOfRange { quantity: "film", value: f64::NAN, allowed: (0.0, f64::INFINITY) },
-    }
-}
-
-fn check(liquid: &Liquid, bodies: &Bodies, films: &[f64]) -> Result<(), WetError> {
-    OutOfRange::positive("surface tension", liquid.surface_tension)?;
-    OutOfRange::positive("viscosity", liquid.viscosity)?;
-    OutOfRange::positive("liquid density", liquid.density)?;
-    for &volume in films {
-        OutOfRange::within("film volume", volume, (0.0, f64::MAX))?;
-    }
-    for element in &bodies.elements {
-        OutOfRange::positive("area of a wall element", element.area)?;
-    }
-    let angles = [
-        ("particle", &bodies.materials, &liquid.particle_angles),
-        ("wall", &bodies.wall_materials, &liquid.wall_angles),
-    ];
-    for (what, materials, angles) in angles {
-        for material in materials.iter().map(|&m| usize::from(m)) {
-            let known = angles.len();
-            let angle = *angles.get(material).ok_or(WetError::NoAngle { what, material, known })?;
-            let allowed = (0.0, std::f64::consts::PI);
-            if !(angle >= allowed.0 && angle < allowed.1) {
-                let quantity = "contact angle";
-                return Err(OutOfRange { quantity, value: angle, allowed }.into());
-            }
-        }
-    }
-    Ok(())
 }
 
 impl<C, N, S> PairTerm for Wet<C, N, S>

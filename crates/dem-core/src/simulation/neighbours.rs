@@ -5,9 +5,10 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::{Settings, Simulation, each};
-use crate::chunk::{Memory, WallPair};
+use crate::chunk::{Chunk, Memory, WallPair};
 use crate::grid::Grids;
 use crate::lists;
+use crate::order::chunk_size;
 use crate::particles::{Class, Particles};
 use crate::{Boundary, PairTerm, wall_pass};
 
@@ -144,6 +145,45 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             wall_pass::find(term, boundary, places, range, chunk);
         });
         (self.lists.walls, self.lists.wall_reach) = (0.0, reach);
+    }
+}
+
+impl<T: PairTerm, B: Boundary> Simulation<T, B> {
+    /// Sorts the particles along the Morton curve, without those in `leaving`, cuts them into new
+    /// chunks and carries every live column over.
+    pub(super) fn sort(&mut self, leaving: &[u32]) {
+        let start = Instant::now();
+        let carried = Carried::collect(self, leaving);
+        let slots: Vec<u32> = if leaving.is_empty() {
+            crate::order::morton(&self.particles)
+        } else {
+            let all = 0..self.particles.len() as u32;
+            all.filter(|slot| leaving.binary_search(slot).is_err()).collect()
+        };
+        self.particles.arrange(&slots);
+        if !self.rolls.is_empty() {
+            self.rolls = slots.iter().map(|&s| self.rolls[s as usize]).collect();
+        }
+        self.cut(carried);
+        self.profile.neighbours += start.elapsed();
+    }
+
+    /// Cuts the particles, in the order they stand in, into chunks that own the carried columns.
+    pub(super) fn cut(&mut self, carried: Carried<T::Column>) {
+        let size = chunk_size(self.particles.len());
+        self.lists.renew(&self.particles, size);
+        for chunk in &self.chunks {
+            self.lists.overlap = self.lists.overlap.max(chunk.overlap);
+            self.profile.pairs += chunk.pair_time;
+            self.profile.walls += chunk.wall_time;
+        }
+        let n = self.particles.len() as u32;
+        let rolls = !self.rolls.is_empty();
+        self.chunks = (0..n)
+            .step_by(size)
+            .map(|first| Chunk::new(first..n.min(first + size as u32), rolls))
+            .collect();
+        carried.hand_out(self);
     }
 }
 

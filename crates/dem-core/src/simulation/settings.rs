@@ -1,0 +1,90 @@
+//! What a simulation is told, and whether it can be done.
+
+use glam::DVec3;
+use rayon::ThreadPool;
+
+use crate::limit::Limit;
+use crate::particles::Particles;
+use crate::{PairTerm, SimulationError};
+
+/// What a simulation needs to know besides bodies and laws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Time step, s.
+    pub time_step: f64,
+    /// Gravity, m/s².
+    pub gravity: DVec3,
+    /// Threads; results do not depend on them.
+    pub threads: usize,
+    /// Corners of the box that particles may be in, m; one outside leaves the scene.
+    pub domain: Option<(DVec3, DVec3)>,
+    /// Skin of the outer neighbour lists, m; `None` chooses it. Results do not depend on it.
+    pub skin: Option<f64>,
+    /// Skin of the active lists, m; `None` chooses it. Results do not depend on it.
+    pub inner_skin: Option<f64>,
+    /// Largest overlap at the start, as a share of the smaller radius.
+    pub start_overlap: f64,
+    /// Goes on with a time step above the stability limit.
+    pub allow_unstable: bool,
+}
+
+impl Settings {
+    /// Earth's gravity along −z, one thread, no bounds, at most 5 % overlap at the start.
+    #[must_use]
+    pub fn new(time_step: f64) -> Self {
+        Self {
+            time_step,
+            gravity: DVec3::new(0.0, 0.0, -9.81),
+            threads: 1,
+            domain: None,
+            skin: None,
+            inner_skin: None,
+            start_overlap: 0.05,
+            allow_unstable: false,
+        }
+    }
+}
+
+/// A pool of threads; none where one is enough.
+pub(super) fn threads(threads: usize) -> Result<Option<ThreadPool>, SimulationError> {
+    if threads <= 1 {
+        return Ok(None);
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let failed = |e: rayon::ThreadPoolBuildError| SimulationError::Threads {
+        threads,
+        reason: e.to_string(),
+    };
+    pool.map(Some).map_err(failed)
+}
+
+/// The stability limit, if the settings can be used.
+pub(super) fn check<T: PairTerm>(
+    particles: &Particles,
+    term: &T,
+    settings: &Settings,
+) -> Result<Limit, SimulationError> {
+    let given = [
+        ("time step", Some(settings.time_step)),
+        ("skin", settings.skin),
+        ("inner skin", settings.inner_skin),
+        ("start overlap", Some(settings.start_overlap)),
+    ];
+    for (quantity, value) in given {
+        if let Some(value) = value.filter(|v| !(*v > 0.0 && *v < f64::INFINITY)) {
+            return Err(SimulationError::Setting { quantity, value });
+        }
+    }
+    let classes = particles.classes();
+    let limit = Limit::packing(classes, &term.stability(classes));
+    if settings.time_step > limit.time_step && !settings.allow_unstable {
+        return Err(SimulationError::TimeStep {
+            time_step: settings.time_step,
+            allowed: limit.time_step,
+            class: limit.class,
+            radius: classes[limit.class].radius(),
+            term: limit.term,
+        });
+    }
+    Ok(limit)
+}
