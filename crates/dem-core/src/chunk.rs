@@ -6,7 +6,7 @@ use std::time::Duration;
 use glam::DVec3;
 
 use crate::lists::PairList;
-use crate::{Pair, Touch};
+use crate::{Encounter, Touch};
 
 /// Force and torque on one particle.
 #[derive(Debug, Clone, Copy, Default)]
@@ -53,7 +53,7 @@ pub(crate) enum List {
 /// A pair that wants attention, and where its column is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Note {
-    pub(crate) pair: Pair,
+    pub(crate) encounter: Encounter,
     pub(crate) list: List,
     pub(crate) index: u32,
 }

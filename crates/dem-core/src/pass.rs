@@ -254,7 +254,7 @@ fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
     if loads.attention != 0 {
         let kind = if INSIDE { List::Inside } else { List::Across };
         for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
-            out.notes.push(Note { pair: pairs.pair(k), list: kind, index: at[k] });
+            out.notes.push(Note { encounter: pairs.pair(k).encounter, list: kind, index: at[k] });
         }
     }
 }

@@ -257,14 +257,14 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         for (c, chunk) in self.chunks.iter_mut().enumerate() {
             notes.extend(chunk.notes.drain(..).map(|note| (c, note)));
         }
-        let key = |n: &Note| (n.pair.encounter.first, n.pair.encounter.second);
+        let key = |n: &Note| (n.encounter.first, n.encounter.second);
         notes.sort_by_key(|(c, note)| (key(note), *c));
         let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(notes.len());
         for (k, (c, note)) in notes.iter().enumerate() {
             let copy = k > 0 && key(&notes[k - 1].1) == key(note) && note.list == List::Across;
             if !copy {
                 let column = *self.chunks[*c].column(note.list, note.index);
-                visits.push(Visit { pair: note.pair, column, ending: false });
+                visits.push(Visit { encounter: note.encounter, column, ending: false });
             }
         }
         let time = self.time();

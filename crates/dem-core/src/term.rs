@@ -10,7 +10,7 @@ pub type TermError = Box<dyn std::error::Error + Send + Sync>;
 #[derive(Debug, Clone, Copy)]
 pub struct Visit<C> {
     /// The pair as it was read.
-    pub pair: Pair,
+    pub encounter: Encounter,
     /// The term's column of the pair; what is left here is written back.
     pub column: C,
     /// The pair ends after this visit: a body leaves the scene, or a wall part is taken away.
@@ -143,11 +143,10 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
         let mut first: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
         self.0.settle(&mut first)?;
+        visits.iter_mut().zip(first).for_each(|(visit, own)| visit.column.0 = own.column);
         let mut second: Vec<_> = visits.iter().map(|v| v.part(v.column.1)).collect();
         self.1.settle(&mut second)?;
-        for ((visit, a), b) in visits.iter_mut().zip(first).zip(second) {
-            visit.column = (a.column, b.column);
-        }
+        visits.iter_mut().zip(second).for_each(|(visit, own)| visit.column.1 = own.column);
         Ok(())
     }
 
@@ -225,6 +224,6 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
 impl<C> Visit<C> {
     fn part<D>(&self, column: D) -> Visit<D> {
-        Visit { pair: self.pair, column, ending: self.ending }
+        Visit { encounter: self.encounter, column, ending: self.ending }
     }
 }

@@ -115,7 +115,11 @@ fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
         chunk.overlap = -touch.gap / pair.radii[0];
     }
     if load.attention {
-        chunk.notes.push(Note { pair, list: List::Wall { memory: k as u32 }, index });
+        chunk.notes.push(Note {
+            encounter: pair.encounter,
+            list: List::Wall { memory: k as u32 },
+            index,
+        });
     }
 }
 
@@ -187,21 +191,15 @@ fn pair<B: Boundary, const ROLLS: bool>(
     pair
 }
 
-/// A touch as it was last read, for the term's last visit.
-pub(crate) fn ending<B: Boundary>(
-    view: &View<'_>,
-    boundary: &B,
-    wall: &WallPair<impl Copy>,
-    touch: &Touch,
-) -> Pair {
-    let encounter = Encounter {
+/// A particle and a wall part at a touch, as they were last read.
+pub(crate) fn meeting(view: &View<'_>, wall: &WallPair<impl Copy>, touch: &Touch) -> Encounter {
+    Encounter {
         first: view.id[wall.slot as usize],
         second: Partner::Wall(wall.part),
         element: touch.element,
         nearest: true,
         gap: touch.gap,
-    };
-    pair::<B, false>(view, boundary, wall.slot, encounter, touch, touch.normal)
+    }
 }
 
 /// Renews a chunk's wall pairs: every part within `reach`, and every live pair at its own gap.

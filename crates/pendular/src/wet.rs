@@ -293,8 +293,7 @@ where
     }
 
     /// Folds the bridge of a pair into its column, now that its volume is known.
-    fn fold(&mut self, pair: &Pair, account: u32) -> Result<Column<C, N, S>, WetError> {
-        let encounter = &pair.encounter;
+    fn fold(&mut self, encounter: &Encounter, account: u32) -> Result<Column<C, N, S>, WetError> {
         let volume = self.ledger.volume(Account::Bridge(account));
         let (first, second) = (encounter.first, encounter.second);
         let refuse = |source| WetError::Law { first, second, volume, source };
@@ -442,7 +441,7 @@ where
         let mut moves = Vec::with_capacity(2 * visits.len());
         let mut forming = Vec::new();
         for (k, visit) in visits.iter_mut().enumerate() {
-            let encounter = visit.pair.encounter;
+            let encounter = visit.encounter;
             if visit.column.bridge != DRY {
                 moves.extend(self.rupture(&encounter, visit.column.bridge));
             } else if !visit.ending {
@@ -460,8 +459,8 @@ where
         }
         for (k, bridge, given) in forming {
             let volume = self.ledger.volume(Account::Bridge(bridge));
-            if volume >= self.smallest(&visits[k].pair.encounter) {
-                visits[k].column = self.fold(&visits[k].pair, bridge)?;
+            if volume >= self.smallest(&visits[k].encounter) {
+                visits[k].column = self.fold(&visits[k].encounter, bridge)?;
                 self.counts.formed += 1;
             } else {
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };

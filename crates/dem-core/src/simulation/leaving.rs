@@ -32,8 +32,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 self.boundary.touches(wall.part, near, x, r, 0.0, &mut touches);
                 let deepest = touches.first().filter(|t| -t.gap > share * r);
                 if let Some(touch) = deepest {
-                    let pair = wall_pass::ending(&view, &self.boundary, wall, touch);
-                    return fail(pair.encounter, share * r);
+                    return fail(wall_pass::meeting(&view, wall, touch), share * r);
                 }
             }
         }
@@ -79,8 +78,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                         let ends = goes(entry[0]) || goes(entry[1]);
                         let ours = !across || chunk.range.contains(&entry[0]);
                         if ends && ours && term.live(column) {
-                            let pair = view.pairs::<f64, false>([entry]).pair(0);
-                            visits.push(Visit { pair, column: *column, ending: true });
+                            let encounter = view.meet(entry);
+                            visits.push(Visit { encounter, column: *column, ending: true });
                         }
                     }
                 }
@@ -91,7 +90,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 }
                 let live = wall.memories.iter().filter(|m| term.live(&m.column));
                 visits.extend(live.map(|m| Visit {
-                    pair: wall_pass::ending(&view, boundary, wall, &m.touch),
+                    encounter: wall_pass::meeting(&view, wall, &m.touch),
                     column: m.column,
                     ending: true,
                 }));
@@ -103,7 +102,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         if visits.is_empty() {
             return Ok(());
         }
-        visits.sort_by_key(|v| (v.pair.encounter.first, v.pair.encounter.second));
+        visits.sort_by_key(|v| (v.encounter.first, v.encounter.second));
         let time = self.time();
         self.term.settle(&mut visits).map_err(|source| SimulationError::Term { time, source })
     }
