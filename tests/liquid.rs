@@ -168,7 +168,7 @@ fn the_bookkeeping_of_yade() {
             moves.push(Move { from: Account::Film(id), to, volume });
         }
     }
-    ledger.book(&mut moves);
+    ledger.book(&mut moves).unwrap();
     let near = |ledger: &Ledger, expected: [f64; 3]| {
         let all = ledger.films().iter().zip(expected);
         assert!(all.clone().all(|(a, b)| (a - b).abs() < 1e-16), "{:?}", ledger.films());
@@ -189,10 +189,10 @@ fn the_bookkeeping_of_yade() {
     let mut own = ledger.clone();
     let shares = [Split::new(0.25).unwrap(), Split::new(0.2).unwrap()];
     let moves = [back(bridges[0], shares[0], 1), back(bridges[1], shares[1], 2)];
-    own.book(&mut moves.concat());
+    own.book(&mut moves.concat()).unwrap();
     near(&own, [0.03, 0.04, 0.05]);
     let moves = [back(bridges[0], Split::HALF, 1), back(bridges[1], Split::HALF, 2)];
-    ledger.book(&mut moves.concat());
+    ledger.book(&mut moves.concat()).unwrap();
     near(&ledger, [0.0465, 0.0325, 0.041]);
 }
 

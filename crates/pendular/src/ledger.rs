@@ -22,6 +22,14 @@ pub struct Move {
     pub volume: f64,
 }
 
+/// A move that cannot be booked.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "cannot book {} m^3 from {:?} to {:?}: both accounts must exist and the volume be finite and \
+     not negative", .0.volume, .0.from, .0.to
+)]
+pub struct BadMove(pub Move);
+
 /// A [`Ledger`] as plain numbers, to be stored.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LedgerParts {
@@ -152,7 +160,18 @@ impl Ledger {
     ///
     /// Where the moves out of an account exceed what it holds, they are scaled down in proportion.
     /// `moves` holds what was moved afterwards.
-    pub fn book(&mut self, moves: &mut [Move]) {
+    ///
+    /// # Errors
+    /// [`BadMove`] for a volume that is negative or not finite, or an account that does not exist;
+    /// nothing is moved then.
+    pub fn book(&mut self, moves: &mut [Move]) -> Result<(), BadMove> {
+        let fits = |step: &Move| {
+            let volume = step.volume >= 0.0 && step.volume.is_finite();
+            volume && self.exists(step.from) && self.exists(step.to)
+        };
+        if let Some(step) = moves.iter().find(|step| !fits(step)) {
+            return Err(BadMove(*step));
+        }
         let mut order: Vec<usize> = (0..moves.len()).collect();
         order.sort_by_key(|&k| (moves[k].from, k));
         let givers: Vec<Account> = order.iter().map(|&k| moves[k].from).collect();
@@ -174,6 +193,16 @@ impl Ledger {
         }
         for step in moves.iter() {
             *self.entry(step.to) += step.volume;
+        }
+        Ok(())
+    }
+
+    fn exists(&self, account: Account) -> bool {
+        match account {
+            Account::Film(k) => (k as usize) < self.films.len(),
+            Account::Wall(k) => (k as usize) < self.walls.len(),
+            Account::Bridge(k) => (k as usize) < self.bridges.len(),
+            Account::Drained => true,
         }
     }
 
@@ -201,7 +230,7 @@ mod tests {
         let mut ledger = Ledger::new(vec![1.0, 1.0], 0);
         let (a, b) = (ledger.open_bridge(), ledger.open_bridge());
         let mut moves = [film(0, a, 1.5), film(1, a, 0.5), film(0, b, 0.5)];
-        ledger.book(&mut moves);
+        ledger.book(&mut moves).unwrap();
         assert_eq!([moves[0].volume, moves[1].volume, moves[2].volume], [0.75, 0.5, 0.25]);
         assert_eq!(ledger.films(), [0.0, 0.5]);
         assert_eq!(ledger.volume(Account::Bridge(a)), 1.25);
@@ -211,9 +240,9 @@ mod tests {
     fn what_comes_in_a_step_cannot_be_given_in_it() {
         let mut ledger = Ledger::new(vec![1.0, 0.0], 0);
         let (a, b) = (ledger.open_bridge(), ledger.open_bridge());
-        ledger.book(&mut [film(0, a, 1.0)]);
+        ledger.book(&mut [film(0, a, 1.0)]).unwrap();
         let back = Move { from: Account::Bridge(a), to: Account::Film(1), volume: 1.0 };
-        ledger.book(&mut [back, film(1, b, 1.0)]);
+        ledger.book(&mut [back, film(1, b, 1.0)]).unwrap();
         assert_eq!(ledger.films(), [0.0, 1.0]);
         assert_eq!(ledger.volume(Account::Bridge(b)), 0.0);
     }
@@ -225,12 +254,29 @@ mod tests {
             let volume = 1e-10 / f64::from(k);
             let mut ledger = Ledger::new(vec![volume, 0.0], 0);
             let bridge = ledger.open_bridge();
-            ledger.book(&mut [film(0, bridge, volume)]);
+            ledger.book(&mut [film(0, bridge, volume)]).unwrap();
             let first = volume * 0.317;
             let back =
                 |to, volume| Move { from: Account::Bridge(bridge), to: Account::Film(to), volume };
-            ledger.book(&mut [back(0, first), back(1, volume - first)]);
+            ledger.book(&mut [back(0, first), back(1, volume - first)]).unwrap();
             assert_eq!(ledger.in_bridges(), 0.0);
+        }
+    }
+
+    #[test]
+    fn bad_moves_are_refused_and_change_nothing() {
+        let mut ledger = Ledger::new(vec![1.0], 1);
+        let wall = |from, volume| Move { from, to: Account::Wall(0), volume };
+        for bad in [
+            wall(Account::Film(0), -1.0),
+            wall(Account::Film(0), f64::NAN),
+            wall(Account::Film(1), 0.5),
+            Move { from: Account::Film(0), to: Account::Bridge(0), volume: 0.5 },
+        ] {
+            let good = wall(Account::Film(0), 0.5);
+            let error = ledger.book(&mut [good, bad]).unwrap_err();
+            assert!(error.to_string().contains("cannot book"), "{error}");
+            assert_eq!((ledger.films(), ledger.walls()), (&[1.0][..], &[0.0][..]));
         }
     }
 
@@ -251,7 +297,7 @@ mod tests {
                     .into_iter()
                     .map(|(a, b, volume)| Move { from: account(a), to: account(b), volume })
                     .collect();
-                ledger.book(&mut moves);
+                ledger.book(&mut moves).unwrap();
                 let all = ledger.films().iter().chain(ledger.walls());
                 prop_assert!(all.chain([&ledger.drained]).all(|&v| v >= 0.0));
             }

@@ -34,7 +34,7 @@ mod wet;
 
 pub use adapters::MeshWalls;
 pub use laws::{Liquid, NoDrag, PairLaws};
-pub use ledger::{Account, Ledger, LedgerParts, Move};
+pub use ledger::{Account, BadMove, Ledger, LedgerParts, Move};
 pub use pendular_capillary as capillary;
 pub use pendular_contact as contact;
 pub use pendular_dem_core as dem;

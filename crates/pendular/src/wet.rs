@@ -176,11 +176,14 @@ where
         self.thickness.get(id as usize).copied().unwrap_or(0.0)
     }
 
-    /// Books the film of a particle that left the scene as drained and returns it, m³.
+    /// Books the film of a particle that left the scene as drained and returns it, m³; 0 for an id
+    /// that was never in it.
     pub fn drain(&mut self, id: u32) -> f64 {
         let volume = self.ledger.volume(Account::Film(id));
         let out = Move { from: Account::Film(id), to: Account::Drained, volume };
-        self.ledger.book(&mut [out]);
+        if self.ledger.book(&mut [out]).is_ok() {
+            self.thickness[id as usize] = 0.0;
+        }
         volume
     }
 
@@ -450,7 +453,7 @@ where
                 moves.extend(self.claims(&encounter, bridge)?);
             }
         }
-        self.ledger.book(&mut moves);
+        self.ledger.book(&mut moves)?;
         for visit in visits.iter_mut().filter(|visit| visit.column.bridge != DRY) {
             let bridge = std::mem::take(&mut visit.column).bridge;
             self.live[bridge as usize] = None;
@@ -465,7 +468,7 @@ where
             } else {
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
                 let [first, second] = [back(&moves[given]), back(&moves[given + 1])];
-                self.ledger.book(&mut [first, second]);
+                self.ledger.book(&mut [first, second])?;
                 self.ledger.close_bridge(bridge);
             }
         }
@@ -483,7 +486,9 @@ where
     }
 
     fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
-        let one = |class: &Class| self.strongest_drag(class, classes).unwrap_or_default();
+        // A drag that has no value here allows no time step at all.
+        let none = StabilityLoad { normal_drag: f64::INFINITY, ..StabilityLoad::default() };
+        let one = |class: &Class| self.strongest_drag(class, classes).unwrap_or(none);
         classes.iter().map(one).collect()
     }
 }
