@@ -18,6 +18,9 @@ use crate::run::{self, Job};
 use crate::scene::Scene;
 use crate::{builtin, page, report};
 
+/// More threads are taken for a mistake.
+const MOST_THREADS: usize = 1024;
+
 /// Lists the built-in scenes.
 pub(crate) fn list() -> Result<(), RunError> {
     for (name, text) in builtin::SCENES {
@@ -113,7 +116,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
     }
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
-    let threads = threads(&args.how);
+    let threads = threads(&args.how)?;
     let source = Source { base: &base, beds: Some(&beds), threads };
     let built = build::build(&scene, &source)?;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
@@ -138,7 +141,7 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
     scene.time_step = Some(checkpoint.time_step);
     scene.seed = checkpoint.seed;
     let class = checkpoint.class.clone();
-    let built = build::again(&scene, &checkpoint.base, threads(how), class)?;
+    let built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
     println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
     let job = Job {
         out: folder.to_path_buf(),
@@ -194,9 +197,18 @@ pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), RunError> {
     Ok(())
 }
 
-fn threads(how: &How) -> usize {
+fn threads(how: &How) -> Result<usize, SceneError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    how.threads.unwrap_or(cores).max(1)
+    let threads = how.threads.unwrap_or(cores);
+    if (1..=MOST_THREADS).contains(&threads) {
+        return Ok(threads);
+    }
+    Err(SceneError::Value {
+        file: PathBuf::from("command line"),
+        key: "threads".into(),
+        value: threads.to_string(),
+        allowed: format!("1 to {MOST_THREADS}"),
+    })
 }
 
 /// A flag that SIGINT and SIGTERM set, so that a run ends with a checkpoint. Where the system does
