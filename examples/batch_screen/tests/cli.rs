@@ -27,7 +27,7 @@ fn small() -> String {
         .replace("diameter_mm = 80 ", "diameter_mm = 40 ")
         .replace("time = 2.0", "time = 0.08")
         .replace("output_interval = 0.02", "output_interval = 0.01")
-        .replace("floor_height_mm = 40", "floor_height_mm = 12")
+        .replace("floor_height_mm = 15", "floor_height_mm = 12")
 }
 
 #[test]
