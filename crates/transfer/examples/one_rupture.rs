@@ -1,6 +1,6 @@
 //! The liquid of one bridge, from the films to the films.
 //!
-//! `cargo run -p pendular-transfer --example one_bridge`
+//! `cargo run -p pendular-transfer --example one_rupture`
 
 use pendular_transfer::formation::{WetMate, claims, films_touch};
 use pendular_transfer::split::TransferTable;
