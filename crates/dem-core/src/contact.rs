@@ -70,6 +70,7 @@ const DENSE: usize = 256;
 pub struct Contact<N> {
     classes: usize,
     materials: usize,
+    heaviest: usize,
     between: Table<N>,
     walls: Vec<PairContact<N>>,
     rolls: bool,
@@ -111,8 +112,10 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
                 Partner::Wall(_) => between(&own[usize::from(a)], &own[usize::from(a)]),
             }))
         };
+        let mass = |k: &usize| classes[*k].mass();
+        let heaviest = (0..classes.len()).max_by(|a, b| mass(a).total_cmp(&mass(b))).unwrap_or(0);
         let materials = usize::from(materials);
-        Self { classes: classes.len(), materials, between: table, walls, rolls }
+        Self { classes: classes.len(), materials, heaviest, between: table, walls, rolls }
     }
 
     #[inline]
@@ -127,7 +130,9 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
 
     fn strongest(&self, class: usize, radius: f64) -> limit::Load {
         let first = class as u16;
-        let others = (0..self.classes.min(DENSE)).map(|b| Partner::Class(b as u16));
+        // Among very many classes the heaviest partner stands for those not looked at.
+        let others = (0..self.classes.min(DENSE)).chain([self.heaviest]);
+        let others = others.map(|b| Partner::Class(b as u16));
         let walls = (0..self.materials).map(|m| Partner::Wall(m as u8));
         // A nonlinear law is read at an overlap of 2 % of the radius.
         let overlap = 0.02 * radius;

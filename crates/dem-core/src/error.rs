@@ -1,5 +1,8 @@
 use crate::{Partner, TermError};
 
+/// Largest coordinate of a particle, m.
+pub(crate) const FARTHEST: f64 = 1e6;
+
 /// What is wrong with a particle or a class of particles.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -27,6 +30,14 @@ pub enum ParticleError {
         quantity: &'static str,
         /// The particle it was meant for.
         id: u32,
+    },
+    /// A position is too far from the origin to be meant.
+    #[error("particle {id} lies {distance:.3e} m from the origin; allowed: up to {FARTHEST:.0e} m")]
+    Far {
+        /// The particle it was meant for.
+        id: u32,
+        /// Largest coordinate, m.
+        distance: f64,
     },
     /// More classes or particles than the indices can hold.
     #[error("more than {allowed} {what}")]

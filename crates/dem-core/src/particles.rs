@@ -1,6 +1,7 @@
 use glam::DVec3;
 
 use crate::ParticleError;
+use crate::error::FARTHEST;
 
 /// What a kind of particle is: its radius, its density, its material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,6 +136,10 @@ impl Particles {
             if !value.is_finite() {
                 return Err(ParticleError::NotFinite { quantity, id });
             }
+        }
+        let distance = position.abs().max_element();
+        if distance > FARTHEST {
+            return Err(ParticleError::Far { id, distance });
         }
         if id == u32::MAX {
             return Err(ParticleError::TooMany { what: "particles", allowed: u32::MAX as usize });

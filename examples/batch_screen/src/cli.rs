@@ -66,10 +66,10 @@ pub(crate) struct RunArgs {
     #[arg(default_value = "demo")]
     pub(crate) scene: String,
     /// Simulated time, s, instead of the scene's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) time: Option<f64>,
     /// Time step, s, instead of the scene's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) dt: Option<f64>,
     /// Folder for the results; `out/NAME` where it is left out.
     #[arg(long, value_name = "DIR")]
@@ -81,7 +81,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
     /// Writes ParaView files into the folder `paraview`, every S seconds of simulated time.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) vtk: Option<f64>,
     #[command(flatten)]
     pub(crate) how: How,
@@ -94,7 +94,7 @@ pub(crate) struct How {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// Wall time between checkpoints, s.
-    #[arg(long, value_name = "S", default_value_t = 300.0)]
+    #[arg(long, value_name = "S", default_value_t = 300.0, allow_negative_numbers = true)]
     pub(crate) checkpoint_every: f64,
     /// Tells no progress.
     #[arg(long)]

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use pendular::dem::SimulationError;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use crate::build::{self, Built, Source};
@@ -91,17 +90,19 @@ pub(crate) fn check(name: &str) -> Result<(), RunError> {
         "  limit        {:.3e} s, set by the {} of class {class}; the time step is {share:.0} % of it",
         limit.time_step, limit.term
     );
-    if share > 100.0 {
-        let too_long = SimulationError::TimeStep {
-            time_step: built.settings.time_step,
-            allowed: limit.time_step,
-            class: limit.class,
-            radius: 0.5e-3 * scene.classes[limit.class].diameter_mm,
-            term: limit.term,
-        };
-        return Err(SceneError::Simulation(too_long).into());
+    Ok(within_limit(&scene, &built)?)
+}
+
+/// Refuses a time step above the stability limit.
+fn within_limit(scene: &Scene, built: &Built) -> Result<(), SceneError> {
+    let limit = build::limit(built);
+    let time_step = built.settings.time_step;
+    if time_step <= limit.time_step {
+        return Ok(());
     }
-    Ok(())
+    let (allowed, term) = (limit.time_step, limit.term);
+    let class = scene.classes[limit.class].name.clone();
+    Err(SceneError::TimeStep { time_step, allowed, class, term })
 }
 
 /// Runs a scene.
@@ -117,6 +118,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
     let threads = threads(&args.how)?;
+    // Refused before the bed is settled, which can take minutes.
+    let loose = build::build(&scene, &Source { base: &base, beds: None, threads: 1 })?;
+    within_limit(&scene, &loose)?;
     let source = Source { base: &base, beds: Some(&beds), threads };
     let built = build::build(&scene, &source)?;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
@@ -142,7 +146,9 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
     scene.seed = checkpoint.seed;
     let class = checkpoint.class.clone();
     let built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
-    println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
+    if !(how.quiet || how.json) {
+        println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
+    }
     let job = Job {
         out: folder.to_path_buf(),
         source: checkpoint.source.clone(),
@@ -162,6 +168,7 @@ fn finish(
     from: Option<Checkpoint>,
     how: &How,
 ) -> Result<(), RunError> {
+    crate::check::interval(Path::new("command line"), "checkpoint-every", how.checkpoint_every)?;
     let style = match (how.quiet, how.json) {
         (true, _) => Style::Quiet,
         (_, true) => Style::Json,
@@ -173,12 +180,9 @@ fn finish(
         }
     };
     say(&report::header(scene, &built));
-    let (settings, derived) = (built.settings, built.derived.clone());
-    let parts: Vec<String> = built.walls.0.parts().iter().map(|part| part.name.clone()).collect();
+    let derived = built.derived.clone();
     let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style))?;
     say(&report::table(scene, &derived, &outcome));
-    let path = job.out.join("summary.json");
-    report::summary(&path, scene, &job.source, &settings, &derived, &outcome, &parts)?;
     let page = page::report(&job.out)?;
     say(&format!("results in {}, report in {}", job.out.display(), page.display()));
     Ok(())

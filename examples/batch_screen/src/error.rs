@@ -17,6 +17,11 @@ pub(crate) enum SceneError {
     Unknown { name: String, known: String },
     #[error("{}, line {line}: {message}", file.display())]
     Csv { file: PathBuf, line: u64, message: String },
+    #[error(
+        "time step {time_step:.3e} s is above the limit {allowed:.3e} s that class {class} sets \
+         through the {term}"
+    )]
+    TimeStep { time_step: f64, allowed: f64, class: String, term: &'static str },
     #[error("the particles do not fit: {message}")]
     Packing { message: String },
     #[error("walls: {0}")]
@@ -38,6 +43,8 @@ pub(crate) enum RunError {
     Scene(#[from] SceneError),
     #[error("cannot write {}: {source}", path.display())]
     Write { path: PathBuf, source: std::io::Error },
+    #[error("cannot go on with {}: {source}", path.display())]
+    Table { path: PathBuf, source: std::io::Error },
     #[error(transparent)]
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error(transparent)]

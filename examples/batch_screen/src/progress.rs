@@ -1,6 +1,7 @@
 //! The live line of a run: a bar on a terminal, plain lines elsewhere, JSON for other programs.
 
 use std::cell::Cell;
+use std::io::Write;
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -78,7 +79,8 @@ impl Progress {
                     "steps_per_s": speed,
                     "left_s": left,
                 });
-                println!("{line}");
+                // Whoever reads along may have gone: that is no reason to end the run.
+                let _ = writeln!(std::io::stdout(), "{line}");
             }
             Style::People => {
                 let bridges = alive.map_or(String::new(), |n| format!("{n} bridges, "));

@@ -15,6 +15,7 @@ use crate::error::{RunError, SceneError};
 use crate::frames;
 use crate::makeup::Makeup;
 use crate::progress::Progress;
+use crate::report;
 use crate::scene::Scene;
 use crate::screening::Screening;
 use crate::tables::{Start, Tables};
@@ -110,7 +111,7 @@ struct Run<'a, T: Makeup> {
     scene: &'a Scene,
     job: &'a Job,
     simulation: Simulation<T, MeshWalls>,
-    class: Vec<u16>,
+    derived: Derived,
     tables: Tables,
     vtk: Option<Series>,
     screening: Screening,
@@ -140,13 +141,12 @@ impl<'a, T: Makeup> Run<'a, T> {
             Some(_) => Some(Series::create(&job.out.join("paraview"))?),
             None => None,
         };
-        let class = derived.class;
         let (frames, vtk_frames, rows, before) = (0, 0, 0, 0.0);
         Ok(Self {
             scene,
             job,
             simulation,
-            class,
+            derived,
             tables,
             vtk,
             screening,
@@ -180,7 +180,7 @@ impl<'a, T: Makeup> Run<'a, T> {
         Ok(Self {
             scene,
             job,
-            class: derived.class,
+            derived,
             tables,
             vtk,
             apertures: from.screening.apertures(),
@@ -209,14 +209,24 @@ impl<'a, T: Makeup> Run<'a, T> {
         }
         loop {
             let now = self.simulation.step();
-            if now == at(self.frames, replay) || (now == last && self.frames <= FRAMES) {
+            // Intervals shorter than a step give one frame or row a step.
+            if at(self.frames, replay) <= now || (now == last && self.frames <= FRAMES) {
                 self.frame()?;
+                while at(self.frames, replay) <= now && self.frames <= FRAMES {
+                    self.frames += 1;
+                }
             }
-            if now == vtk_at(self.vtk_frames) {
+            if vtk_at(self.vtk_frames) <= now {
                 self.vtk_frame()?;
+                while vtk_at(self.vtk_frames) <= now {
+                    self.vtk_frames += 1;
+                }
             }
-            if now == at(self.rows, interval) || (now == last && at(self.rows, interval) < last) {
+            if at(self.rows, interval) <= now || now == last {
                 progress.row(&self.row()?);
+                while at(self.rows, interval) <= now {
+                    self.rows += 1;
+                }
             }
             if now >= last {
                 break;
@@ -242,16 +252,23 @@ impl<'a, T: Makeup> Run<'a, T> {
             progress.step(&self.simulation, &self.gone.collected, self.scene.time);
         }
         progress.finish();
-        Ok(Outcome {
+        self.save(begun)?;
+        Ok(self.outcome(begun))
+    }
+
+    /// How the run stands.
+    fn outcome(&self, begun: Instant) -> Outcome {
+        Outcome {
             tally: self.tally(),
             start: self.tables.start(),
             steps: self.simulation.step(),
             largest_overlap: self.simulation.largest_overlap(),
             wall_time: begun.elapsed() + Duration::from_secs_f64(self.before),
             profile: self.simulation.profile(),
-        })
+        }
     }
 
+    /// Writes how the run stands: a summary for people and pages, a checkpoint to go on from.
     fn save(&self, begun: Instant) -> Result<(), RunError> {
         let checkpoint = Checkpoint {
             source: self.job.source.clone(),
@@ -261,7 +278,7 @@ impl<'a, T: Makeup> Run<'a, T> {
             time_step: self.simulation.settings().time_step,
             seed: self.scene.seed,
             vtk: self.job.vtk,
-            class: self.class.clone(),
+            class: self.derived.class.clone(),
             core: Core::of(&self.simulation),
             wet: self.simulation.term().wet().map(StoredWet::of),
             screening: self.screening.clone(),
@@ -273,6 +290,11 @@ impl<'a, T: Makeup> Run<'a, T> {
             vtk_frames: self.vtk_frames,
             elapsed: self.before + begun.elapsed().as_secs_f64(),
         };
+        let path = self.job.out.join("summary.json");
+        let (settings, outcome) = (self.simulation.settings(), self.outcome(begun));
+        let parts = part_names(&self.simulation);
+        let source = &self.job.source;
+        report::summary(&path, self.scene, source, settings, &self.derived, &outcome, &parts)?;
         Ok(checkpoint.write(&self.job.out)?)
     }
 
@@ -284,7 +306,6 @@ impl<'a, T: Makeup> Run<'a, T> {
         let tally = self.tally();
         let blocked = self.screening.blocked(&self.simulation);
         self.tables.row(&tally, &blocked, self.apertures)?;
-        self.rows += 1;
         Ok(tally)
     }
 
@@ -293,16 +314,13 @@ impl<'a, T: Makeup> Run<'a, T> {
         particles.sort_by_key(|particle| particle.id);
         let wet = self.simulation.term().wet();
         let film = |id: u32| wet.map_or(0.0, |wet| wet.film_thickness(id));
-        self.tables.frame(self.simulation.time(), &particles, film)?;
-        self.frames += 1;
-        Ok(())
+        self.tables.frame(self.simulation.time(), &particles, film)
     }
 
     fn vtk_frame(&mut self) -> Result<(), RunError> {
         if let Some(series) = &mut self.vtk {
             series.frame(&frames::frame(&self.simulation))?;
         }
-        self.vtk_frames += 1;
         Ok(())
     }
 

@@ -32,20 +32,28 @@ impl Table {
         Ok(table)
     }
 
-    /// Goes on after the first `length` bytes, and forgets what came after them.
+    /// Opens a table that holds at least `length` bytes; nothing is changed yet.
     fn reopen(folder: &Path, name: &str, length: u64) -> Result<Self, RunError> {
         let path = folder.join(name);
         let open = || -> std::io::Result<File> {
-            let mut file = File::options().read(true).write(true).open(&path)?;
+            let file = File::options().read(true).write(true).open(&path)?;
             if file.metadata()?.len() < length {
                 return Err(std::io::Error::other("it is shorter than at the checkpoint"));
             }
-            file.set_len(length)?;
-            file.seek(SeekFrom::End(0))?;
             Ok(file)
         };
-        let file = open().map_err(|source| RunError::Write { path: path.clone(), source })?;
+        let file = open().map_err(|source| RunError::Table { path: path.clone(), source })?;
         Ok(Self { path, writer: csv::Writer::from_writer(file) })
+    }
+
+    /// Forgets what came after the first `length` bytes.
+    fn cut(&mut self, length: u64) -> Result<(), RunError> {
+        let cut = || -> std::io::Result<()> {
+            self.writer.get_ref().set_len(length)?;
+            let mut file = self.writer.get_ref();
+            file.seek(SeekFrom::Start(length)).map(|_| ())
+        };
+        cut().map_err(|source| RunError::Write { path: self.path.clone(), source })
     }
 
     /// Bytes on disk.
@@ -106,6 +114,16 @@ impl Tables {
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
+        // Nothing of an earlier run in this folder may be taken for part of this one.
+        for name in ["report.html", "liquid.csv", "liquid_shared.csv", "bridges.csv"] {
+            let path = folder.join(name);
+            match std::fs::remove_file(&path) {
+                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(RunError::Write { path, source });
+                }
+                _ => {}
+            }
+        }
         let create = |name: &str, cells: Vec<String>| Table::create(folder, name, &cells);
         let mut tables = Self::open(scene, derived, parts, create)?;
         tables.start = masses(first, &tables.masses, tables.density);
@@ -121,10 +139,13 @@ impl Tables {
         lengths: &[u64],
         start: Start,
     ) -> Result<Self, RunError> {
-        let mut lengths = lengths.iter().copied();
-        let reopen =
-            |name: &str, _| Table::reopen(folder, name, lengths.next().unwrap_or(u64::MAX));
+        let mut known = lengths.iter().copied();
+        let reopen = |name: &str, _| Table::reopen(folder, name, known.next().unwrap_or(u64::MAX));
         let mut tables = Self::open(scene, derived, parts, reopen)?;
+        // All are there and long enough: only now is anything cut.
+        for (table, length) in tables.all_mut().zip(lengths) {
+            table.cut(*length)?;
+        }
         tables.start = start;
         Ok(tables)
     }
@@ -141,6 +162,20 @@ impl Tables {
         ];
         let wet = [&self.liquid, &self.shared, &self.bridges].into_iter().flatten();
         dry.into_iter().chain(wet).map(Table::length).collect()
+    }
+
+    /// Every table, in the order in which they are opened.
+    fn all_mut(&mut self) -> impl Iterator<Item = &mut Table> {
+        let dry = [
+            &mut self.retained,
+            &mut self.partition,
+            &mut self.pegging,
+            &mut self.energy,
+            &mut self.passages,
+            &mut self.replay,
+        ];
+        let wet = [&mut self.liquid, &mut self.shared, &mut self.bridges];
+        dry.into_iter().chain(wet.into_iter().flatten())
     }
 
     /// Masses at the start.

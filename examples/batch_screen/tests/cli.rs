@@ -121,7 +121,11 @@ const BAD: &[(&str, &str, &[&str])] = &[
     ("surface_tension = 0.07275", "surface_tension = 0", &["liquid.surface_tension"]),
     ("stiffness = 1e5", "stiffness = 0", &["contact.stiffness"]),
     ("solid_fraction = 0.3", "solid_fraction = 0.7", &["packing.solid_fraction", "0.35"]),
-    ("time_step = 5e-6", "time_step = 1e-3", &["time step", "contact springs and dashpots"]),
+    (
+        "time_step = 5e-6",
+        "time_step = 1e-3",
+        &["time step", "class 5 mm", "contact springs and dashpots"],
+    ),
     ("height_mm = 120", "height_mm = 13", &["screen.height_mm"]),
     ("title = ", "tittle = ", &["tittle", "line 2"]),
     ("[motion]", "[motions]", &["motions"]),
@@ -168,6 +172,8 @@ fn missing_and_broken_files() {
         ("id,x,y,z,radius,density\n1,0,0,a,0.0025,1358\n", "line 2"),
         ("id,x,y,z,radius,density\n1,0,0,0.05,0.003,1358\n", "no class has radius"),
         ("id,x,y,z,radius,density\n1,0,0,nan,0.0025,1358\n", "z = `nan`"),
+        ("id,x,y,z,radius,density\n1,0,0,1e308,0.0025,1358\n", "outside the frame"),
+        ("id,x,y,z,radius,density\n", "no particle"),
     ] {
         fs::write(folder.path().join("bed.csv"), bed).unwrap();
         let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
@@ -223,6 +229,9 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
         }
         child.kill().unwrap();
         child.wait().unwrap();
+        // What a killed run has left can be looked at.
+        let page = run(folder.path(), &["report", "cut"]);
+        assert!(page.status.success(), "{}", text(&page.stderr));
         args = vec!["resume", "cut"];
     }
     let last = run(folder.path(), &["resume", "cut"]);
@@ -258,6 +267,8 @@ fn checkpoints_that_cannot_be_used_say_why() {
     let none = run(folder.path(), &["resume", "nowhere"]);
     assert_eq!(none.status.code(), Some(1));
     assert!(text(&none.stderr).contains("no checkpoint to go on from"));
+    let nan = ["run", "small.toml", "--checkpoint-every", "nan"];
+    assert_eq!(run(folder.path(), &nan).status.code(), Some(2));
     let done = run(folder.path(), &["run", "small.toml", "--time", "0.01", "--out", "a"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let file = folder.path().join("a/checkpoint.bin");
@@ -271,4 +282,11 @@ fn checkpoints_that_cannot_be_used_say_why() {
         let said = text(&run(folder.path(), &["resume", "a"]).stderr);
         assert!(said.contains(wanted), "{said}");
     }
+    // A table that is missing is told before any other is touched.
+    fs::write(&file, &good).unwrap();
+    fs::remove_file(folder.path().join("a/bridges.csv")).unwrap();
+    let retained = fs::read(folder.path().join("a/retained.csv")).unwrap();
+    let said = text(&run(folder.path(), &["resume", "a"]).stderr);
+    assert!(said.contains("bridges.csv"), "{said}");
+    assert_eq!(fs::read(folder.path().join("a/retained.csv")).unwrap(), retained);
 }

@@ -26,11 +26,17 @@ pub(crate) fn run(
     })
 }
 
-/// A law's own force: strictly where it may, extrapolated where that is allowed.
+/// A law's own force: strictly where it may, extrapolated where that is allowed. Beyond the exact
+/// rupture distance, where one is known, there is no bridge left to speak of.
 fn formula(law: AnyCapillary, bridge: &Bridge, gap: f64, strict: bool) -> Answer {
     let trust = trust(law, bridge, strict)?;
     let curve = law.curve(bridge, Range::Extrapolate).map_err(|_| Trouble::NoValue)?;
-    Ok((curve.force(gap), trust))
+    let broken = tabulated::rupture_distance(bridge).is_ok_and(|end| gap > end);
+    match (broken, strict) {
+        (true, true) => Err(Trouble::Ruptured),
+        (true, false) => Ok((curve.force(gap), Trust::Extrapolated)),
+        (false, _) => Ok((curve.force(gap), trust)),
+    }
 }
 
 /// The table's force; beyond its rupture distance the force that fades out is an extrapolation.

@@ -21,15 +21,17 @@ pub(crate) enum RuptureChoice {
 
 impl RuptureChoice {
     /// How many there are.
-    pub(crate) const COUNT: usize = AnyRupture::ALL.len() + 2;
+    pub(crate) const COUNT: usize = AnyRupture::ALL.len() + 1;
 
     /// Every law, the exact one last.
     pub(crate) fn all() -> [Self; Self::COUNT] {
         let mut all = [Self::YoungLaplace; Self::COUNT];
         for (place, law) in all.iter_mut().zip(AnyRupture::ALL) {
-            *place = Self::Formula(law);
+            *place = match law {
+                AnyRupture::Tabulated => Self::Tabulated,
+                law => Self::Formula(law),
+            };
         }
-        all[AnyRupture::ALL.len()] = Self::Tabulated;
         all
     }
 

@@ -1,4 +1,4 @@
-use pendular_capillary::tabulated;
+use pendular_capillary::{CapillaryLaw, tabulated};
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
 use crate::RuptureLaw;
@@ -12,8 +12,8 @@ use crate::RuptureLaw;
 /// Lengths m, volume m³, contact angles rad → S_rup m.
 ///
 /// # Range
-/// All bridges that the table or the exact solver folds: any size ratio and plane, each contact
-/// angle on its own; within 1e-3 of the exact value. [`Range`] makes no difference.
+/// That of the table: any size ratio and plane, each contact angle on its own; within 1e-3 of the
+/// exact value. Beyond it the exact solver answers where it can.
 ///
 /// # Example
 /// ```
@@ -32,10 +32,11 @@ pub struct Tabulated;
 
 impl RuptureLaw for Tabulated {
     fn validity(&self) -> Validity {
-        Validity::ALL
+        CapillaryLaw::validity(&tabulated::Tabulated)
     }
 
-    fn distance(&self, bridge: &Bridge, _: Range) -> Result<f64, OutOfRange> {
+    fn distance(&self, bridge: &Bridge, range: Range) -> Result<f64, OutOfRange> {
+        self.validity().admit(bridge, range)?;
         tabulated::rupture_distance(bridge)
     }
 }

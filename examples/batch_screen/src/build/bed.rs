@@ -39,7 +39,12 @@ pub(crate) fn place(
     let densities: Vec<f64> = classes.iter().map(Class::density).collect();
     let counts = counts(scene, classes);
     match &scene.packing {
-        Packing::File { path } => packing::from_file(&source.base.join(path), &radii, &densities),
+        Packing::File { path } => {
+            let file = source.base.join(path);
+            let placed = packing::from_file(&file, &radii, &densities)?;
+            inside(scene, &file, &placed)?;
+            Ok(placed)
+        }
         Packing::Random { solid_fraction, clearance_mm } => {
             let wire = 0.5 * scene.screen.wire_diameter_mm;
             let bottom = 1e-3 * (wire + scene.motion.amplitude_mm[2] + clearance_mm);
@@ -57,6 +62,30 @@ pub(crate) fn place(
                 settle(scene, classes, &loose, time_step, source.threads, *settle_at_most)?;
             keep(&file, classes, &settled)?;
             Ok(settled)
+        }
+    }
+}
+
+/// Particles from a file must lie in the frame, above where they are collected.
+fn inside(scene: &Scene, file: &Path, placed: &[Placed]) -> Result<(), SceneError> {
+    let fail = |line: u64, message: String| {
+        Err(SceneError::Csv { file: file.to_path_buf(), line, message })
+    };
+    if placed.is_empty() {
+        return fail(1, "there is no particle in it".into());
+    }
+    let radius = 0.5e-3 * scene.screen.diameter_mm;
+    let (low, _) = apparatus::collection(scene);
+    let top = 1e-3 * (scene.screen.height_mm + 50.0);
+    let out = |one: &Placed| {
+        let x = one.position;
+        x.truncate().length() > radius || x.z < low || x.z > top
+    };
+    match placed.iter().position(out) {
+        None => Ok(()),
+        Some(k) => {
+            let allowed = format!("within {radius} m of the axis and from {low} to {top} m high");
+            fail(k as u64 + 2, format!("{} lies outside the frame: {allowed}", placed[k].position))
         }
     }
 }
