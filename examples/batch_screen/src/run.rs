@@ -203,6 +203,10 @@ impl<'a, T: Makeup> Run<'a, T> {
         let replay = self.scene.time / FRAMES as f64;
         let vtk_at = |k: u64| self.job.vtk.map_or(u64::MAX, |interval| at(k, interval));
         let interval = self.scene.output_interval;
+        if self.rows > 0 && self.simulation.step() >= last {
+            // Taken up again after its end: there is nothing left to do.
+            return Ok(self.outcome(begun));
+        }
         if self.simulation.step() == 0 {
             // From here on the run can be taken up again, whenever it is killed.
             self.save(begun)?;
