@@ -66,7 +66,8 @@ proptest! {
     fn rupture_distance_grows_with_the_contact_angle(b in bridge(), more in 1e-3..0.05f64) {
         let [i, j] = b.contact_angles();
         let drier = Bridge::new(1.0, b.mate(), b.volume(), [i + more, j], 0.07).unwrap();
-        for law in AnyRupture::ALL {
+        // The formulas say so; the exact bridge has cusps where it is otherwise.
+        for law in AnyRupture::ALL.into_iter().filter(|law| *law != AnyRupture::Tabulated) {
             let at = |b: &Bridge| law.distance(b, Range::Extrapolate);
             if let (Ok(one), Ok(two)) = (at(&b), at(&drier)) {
                 prop_assert!(two > one, "{law}: {one} {two}");
@@ -79,15 +80,16 @@ proptest! {
         let alike = with(&b, by, scaled(b.mate(), by), b.volume() * by.powi(3), 0.02);
         for law in AnyRupture::ALL {
             let at = |b: &Bridge| law.distance(b, Range::Extrapolate).ok();
+            let rounding = if law == AnyRupture::Tabulated { 1e-9 } else { 1e-12 };
             if let Some(other) = b.swapped() {
                 let (one, two) = (at(&b), at(&other));
                 prop_assert_eq!(one.is_some(), two.is_some());
                 if let (Some(one), Some(two)) = (one, two) {
-                    prop_assert!((one / two - 1.0).abs() < 1e-12, "{law}: {one} {two}");
+                    prop_assert!((one / two - 1.0).abs() < rounding, "{law}: {one} {two}");
                 }
             }
             if let (Some(one), Some(two)) = (at(&b), at(&alike)) {
-                prop_assert!((one * by / two - 1.0).abs() < 1e-12, "{law}: {one} {two}");
+                prop_assert!((one * by / two - 1.0).abs() < rounding, "{law}: {one} {two}");
             }
         }
     }
