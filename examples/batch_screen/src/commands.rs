@@ -80,7 +80,7 @@ fn load(name: &str) -> Result<Loaded, SceneError> {
 /// Checks a scene and says what follows from it.
 pub(crate) fn check(name: &str) -> Result<(), RunError> {
     let Loaded { scene, base, .. } = load(name)?;
-    let source = Source { base: &base, beds: None, threads: 1 };
+    let source = Source { base: &base, beds: None, threads: 1, tell: false };
     let built = build::build(&scene, &source)?;
     println!("{}", report::header(&scene, &built));
     let limit = build::limit(&built);
@@ -119,9 +119,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
     let threads = threads(&args.how)?;
     // Refused before the bed is settled, which can take minutes.
-    let loose = build::build(&scene, &Source { base: &base, beds: None, threads: 1 })?;
+    let loose = build::build(&scene, &Source { base: &base, beds: None, threads: 1, tell: false })?;
     within_limit(&scene, &loose)?;
-    let source = Source { base: &base, beds: Some(&beds), threads };
+    let source = Source {
+        base: &base,
+        beds: Some(&beds),
+        threads,
+        tell: !(args.how.quiet || args.how.json),
+    };
     let built = build::build(&scene, &source)?;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
         .map_err(|source| RunError::Write { path: base.clone(), source })?;

@@ -26,6 +26,8 @@ pub(crate) struct Source<'a> {
     /// settle, which is enough to check a scene.
     pub(crate) beds: Option<&'a Path>,
     pub(crate) threads: usize,
+    /// Whether to say on stderr that a bed is being settled, which can take minutes.
+    pub(crate) tell: bool,
 }
 
 /// The particles of a scene at t = 0, at rest.
@@ -58,6 +60,12 @@ pub(crate) fn place(
             let space = space(scene, 1e-3 * floor_height_mm, *solid_fraction);
             let loose = packing::random(&radii, &counts, &space, scene.seed)?;
             let Some(file) = kept else { return Ok(loose) };
+            if source.tell {
+                eprintln!(
+                    "settling {} spheres in the feed bin; kept for the next run",
+                    loose.len()
+                );
+            }
             let settled =
                 settle(scene, classes, &loose, time_step, source.threads, *settle_at_most)?;
             keep(&file, classes, &settled)?;
