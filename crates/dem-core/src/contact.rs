@@ -46,6 +46,23 @@ impl<M: Copy> Spring<M> {
     }
 }
 
+/// The forces of one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactForces {
+    /// Repulsion, N.
+    pub normal: f64,
+    /// Friction on the first body, N.
+    pub tangential: DVec3,
+    /// Torque of rolling friction on the first body, N m.
+    pub rolling: DVec3,
+    /// Power that the dashpot takes, W.
+    pub normal_power: f64,
+    /// Power that sliding takes, W; what the tangential spring stores is not counted.
+    pub tangential_power: f64,
+    /// Power that rolling friction takes, W.
+    pub rolling_power: f64,
+}
+
 type Rule<N> = Box<dyn Fn(u16, Partner) -> PairContact<N> + Send + Sync>;
 
 #[derive(Clone, Copy)]
@@ -128,6 +145,40 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         }
     }
 
+    #[inline]
+    fn law_of(&self, pair: &Pair) -> PairContact<N> {
+        let second = match pair.encounter.second {
+            crate::Partner::Particle(_) => Partner::Class(pair.second_class),
+            crate::Partner::Wall(_) => Partner::Wall(pair.second_class as u8),
+        };
+        self.law(pair.first_class, second)
+    }
+
+    /// What acts in a contact, part by part: for budgets and reports, not for the step.
+    #[must_use]
+    pub fn forces(&self, pair: &Pair, spring: &Spring<N::Memory>) -> ContactForces
+    where
+        N::Memory: PartialEq,
+    {
+        let (overlap, mut column) = (-pair.encounter.gap, *spring);
+        if overlap <= 0.0 {
+            return ContactForces::default();
+        }
+        let law = self.law_of(pair);
+        let load = self.load(pair, &mut column);
+        let elastic = law.normal.force(overlap, 0.0, &mut spring.memory.clone());
+        let slides = load.shear.length() >= (1.0 - 1e-9) * law.friction * load.tension.abs();
+        let dashpot = law.tangential_damping * pair.slip.length_squared();
+        ContactForces {
+            normal: -load.tension,
+            tangential: load.shear,
+            rolling: load.rolling,
+            normal_power: (elastic + load.tension) * pair.separation_speed,
+            tangential_power: if slides { -load.shear.dot(pair.slip) } else { dashpot },
+            rolling_power: -load.rolling.dot(pair.spin),
+        }
+    }
+
     fn strongest(&self, class: usize, radius: f64) -> limit::Load {
         let first = class as u16;
         // Among very many classes the heaviest partner stands for those not looked at.
@@ -176,11 +227,7 @@ where
 
     #[inline(always)]
     fn load(&self, pair: &Pair, mut column: &mut Self::Column) -> Load {
-        let second = match pair.encounter.second {
-            crate::Partner::Particle(_) => Partner::Class(pair.second_class),
-            crate::Partner::Wall(_) => Partner::Wall(pair.second_class as u8),
-        };
-        let law = self.law(pair.first_class, second);
+        let law = self.law_of(pair);
         act([&law], self.rolls, &Geometry::of(pair), &mut column).single()
     }
 
@@ -219,6 +266,21 @@ where
 
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
         classes.iter().enumerate().map(|(i, class)| self.strongest(i, class.radius())).collect()
+    }
+
+    fn load_on_limit(&self, pair: &Pair, _: &Self::Column) -> limit::Load {
+        let overlap = -pair.encounter.gap;
+        if overlap <= 0.0 {
+            return limit::Load::default();
+        }
+        let law = self.law_of(pair);
+        limit::Load {
+            normal_stiffness: law.normal.stiffness(overlap),
+            tangential_stiffness: law.normal.tangential_stiffness(overlap),
+            normal_damping: law.normal.damping(overlap),
+            tangential_damping: law.tangential_damping,
+            ..limit::Load::default()
+        }
     }
 }
 

@@ -48,7 +48,7 @@ mod term;
 mod wall_pass;
 
 pub use boundary::{Boundary, NoWalls, Touch};
-pub use contact::{Contact, PairContact, Spring};
+pub use contact::{Contact, ContactForces, PairContact, Spring};
 pub use error::{ParticleError, SimulationError};
 pub use glam;
 pub use glam::DVec3;

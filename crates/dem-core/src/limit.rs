@@ -53,6 +53,8 @@ pub struct Limit {
 }
 
 impl Limit {
+    const NONE: Self = Self { time_step: f64::INFINITY, class: 0, term: "nothing" };
+
     /// The limit of a packing in which every sphere has twelve contacts of its strongest kind.
     ///
     /// ```text
@@ -64,25 +66,95 @@ impl Limit {
     /// pair are 1.4 to 2.4 times too large.
     #[must_use]
     pub fn packing(classes: &[Class], loads: &[Load]) -> Self {
-        let mut least = Self { time_step: f64::INFINITY, class: 0, term: "nothing" };
-        for (class, (kind, load)) in classes.iter().zip(loads).enumerate() {
-            let lambda = |n: f64, t: f64| {
-                2.0 * CONTACTS / kind.mass() * ((n + 2.0 * t) / 3.0).max(5.0 * t / 3.0)
+        Self::least(packed(classes, loads).map(|(class, mass, sums)| sums.limit(mass, class)))
+    }
+
+    /// The same, term by term: springs alone, with their dashpots, viscous drag alone. Terms that
+    /// are not there have no row.
+    #[must_use]
+    pub fn table(classes: &[Class], loads: &[Load]) -> Vec<Self> {
+        let alone = |term, keep: fn(Sums) -> Sums, safety: f64| {
+            let one = |(class, mass, sums): (usize, f64, Sums)| {
+                let time_step = safety * keep(sums).longest(mass);
+                Self { time_step, class, term }
             };
-            let stiff = lambda(load.normal_stiffness, load.tangential_stiffness);
-            let dashpot = lambda(load.normal_damping, load.tangential_damping);
-            let drag = lambda(load.normal_drag, load.tangential_drag);
-            let (safety, term) = if drag * drag > 4.0 * stiff {
-                (SAFETY_VISCOUS, "viscous drag")
-            } else {
-                (SAFETY, "contact springs and dashpots")
-            };
-            let time_step = safety * longest(stiff, dashpot + drag);
-            if time_step < least.time_step {
-                least = Self { time_step, class, term };
-            }
+            Self::least(packed(classes, loads).map(one))
+        };
+        let rows = [
+            alone("contact springs", |s| Sums { dashpot: [0.0; 2], drag: [0.0; 2], ..s }, SAFETY),
+            alone("contact springs and dashpots", |s| Sums { drag: [0.0; 2], ..s }, SAFETY),
+            alone("viscous drag", |s| Sums { drag: s.drag, ..Sums::default() }, SAFETY_VISCOUS),
+        ];
+        rows.into_iter().filter(|row| row.time_step.is_finite()).collect()
+    }
+
+    /// The smallest of several.
+    pub(crate) fn least(limits: impl Iterator<Item = Self>) -> Self {
+        limits.fold(
+            Self::NONE,
+            |least, one| if one.time_step < least.time_step { one } else { least },
+        )
+    }
+}
+
+/// Every class with its mass and the sums of twelve contacts.
+fn packed<'a>(
+    classes: &'a [Class],
+    loads: &'a [Load],
+) -> impl Iterator<Item = (usize, f64, Sums)> + 'a {
+    classes.iter().zip(loads).enumerate().map(|(class, (kind, load))| {
+        let mut sums = Sums::default();
+        sums.add(load);
+        (class, kind.mass(), sums.times(CONTACTS))
+    })
+}
+
+/// Sums over the pairs of one sphere: normal and tangential each.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sums {
+    stiffness: [f64; 2],
+    dashpot: [f64; 2],
+    drag: [f64; 2],
+}
+
+impl Sums {
+    pub(crate) fn add(&mut self, load: &Load) {
+        let both = [
+            (&mut self.stiffness, [load.normal_stiffness, load.tangential_stiffness]),
+            (&mut self.dashpot, [load.normal_damping, load.tangential_damping]),
+            (&mut self.drag, [load.normal_drag, load.tangential_drag]),
+        ];
+        for (sum, [normal, tangential]) in both {
+            sum[0] += normal;
+            sum[1] += tangential;
         }
-        least
+    }
+
+    fn times(self, z: f64) -> Self {
+        let times = |sum: [f64; 2]| sum.map(|one| z * one);
+        let Self { stiffness, dashpot, drag } = self;
+        Self { stiffness: times(stiffness), dashpot: times(dashpot), drag: times(drag) }
+    }
+
+    /// Safety included.
+    pub(crate) fn limit(&self, mass: f64, class: usize) -> Limit {
+        let [stiff, _, drag] = self.lambdas(mass);
+        let (safety, term) = if drag * drag > 4.0 * stiff {
+            (SAFETY_VISCOUS, "viscous drag")
+        } else {
+            (SAFETY, "contact springs and dashpots")
+        };
+        Limit { time_step: safety * self.longest(mass), class, term }
+    }
+
+    fn longest(&self, mass: f64) -> f64 {
+        let [stiff, dashpot, drag] = self.lambdas(mass);
+        longest(stiff, dashpot + drag)
+    }
+
+    fn lambdas(&self, mass: f64) -> [f64; 3] {
+        [self.stiffness, self.dashpot, self.drag]
+            .map(|[n, t]| 2.0 / mass * ((n + 2.0 * t) / 3.0).max(5.0 * t / 3.0))
     }
 }
 

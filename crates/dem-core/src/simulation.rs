@@ -15,6 +15,7 @@ mod leaving;
 mod neighbours;
 mod settings;
 mod snapshot;
+mod survey;
 
 pub use settings::Settings;
 use settings::{check, threads};

@@ -76,6 +76,12 @@ pub trait PairTerm: Send + Sync {
 
     /// The stiffest and most viscous pair that each class can be part of.
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load>;
+
+    /// What this pair, as it is now, adds to the sums of the stability limit.
+    fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
+        let _ = (pair, column);
+        limit::Load::default()
+    }
 }
 
 /// No interaction at all.
@@ -163,6 +169,10 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         let (a, b) = (self.0.stability(classes), self.1.stability(classes));
         a.into_iter().zip(b).map(|(a, b)| a + b).collect()
     }
+
+    fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
+        self.0.load_on_limit(pair, &column.0) + self.1.load_on_limit(pair, &column.1)
+    }
 }
 
 /// A term that may be absent: `None` acts in no pair.
@@ -219,6 +229,10 @@ impl<T: PairTerm> PairTerm for Option<T> {
             Some(term) => term.stability(classes),
             None => ().stability(classes),
         }
+    }
+
+    fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
+        self.as_ref().map_or_else(Default::default, |term| term.load_on_limit(pair, column))
     }
 }
 

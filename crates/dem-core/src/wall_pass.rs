@@ -152,7 +152,7 @@ fn remember<T: PairTerm>(
 
 /// A particle and a wall. The half-step normal is the mean of the last two: right on any shape.
 #[inline(always)]
-fn pair<B: Boundary, const ROLLS: bool>(
+pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
     view: &View<'_>,
     boundary: &B,
     slot: u32,

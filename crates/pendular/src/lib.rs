@@ -27,12 +27,14 @@
 //! say nothing; here they are scaled down in proportion.
 
 mod adapters;
+mod budget;
 mod laws;
 mod ledger;
 mod split;
 mod wet;
 
 pub use adapters::MeshWalls;
+pub use budget::{Acting, Against, Budget, Share};
 pub use laws::{Liquid, NoDrag, PairLaws};
 pub use ledger::{Account, BadMove, Ledger, LedgerParts, Move};
 pub use pendular_capillary as capillary;
@@ -44,7 +46,8 @@ pub use pendular_transfer as transfer;
 pub use pendular_walls as walls;
 pub use split::SplitMethod;
 pub use wet::{
-    Bodies, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError, WetState,
+    Bodies, BridgeForces, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError,
+    WetState,
 };
 
 /// The README's program runs as a test.

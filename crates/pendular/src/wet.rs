@@ -1,5 +1,7 @@
 mod act;
 mod bodies;
+mod energy;
+mod forces;
 mod state;
 
 use act::{Pull, act};
@@ -21,6 +23,7 @@ use crate::{Account, Ledger, Liquid, Move, PairLaws, SplitMethod};
 const SMALLEST_V_STAR: f64 = 1e-9;
 pub use bodies::{Bodies, Counts, WallElement, WetError};
 use bodies::{check, parameter};
+pub use forces::BridgeForces;
 pub use state::{LiveState, WetState};
 
 /// No bridge.
@@ -84,6 +87,7 @@ pub struct Wet<C, N, S> {
     wall_thickness: Vec<f64>,
     thickest: f64,
     counts: Counts,
+    capillary_loss: f64,
 }
 
 /// What [`Wet`] remembers of one pair.
@@ -122,6 +126,7 @@ where
             thickest: 0.0,
             live: Vec::new(),
             counts: Counts::default(),
+            capillary_loss: 0.0,
             liquid,
             between,
             with_walls,
@@ -456,6 +461,7 @@ where
         self.ledger.book(&mut moves)?;
         for visit in visits.iter_mut().filter(|visit| visit.column.bridge != DRY) {
             let bridge = std::mem::take(&mut visit.column).bridge;
+            self.lose(bridge, visit.encounter.gap, 1.0)?;
             self.live[bridge as usize] = None;
             self.ledger.close_bridge(bridge);
             self.counts.ruptured += 1;
@@ -464,6 +470,7 @@ where
             let volume = self.ledger.volume(Account::Bridge(bridge));
             if volume >= self.smallest(&visits[k].encounter) {
                 visits[k].column = self.fold(&visits[k].encounter, bridge)?;
+                self.lose(bridge, visits[k].encounter.gap, -1.0)?;
                 self.counts.formed += 1;
             } else {
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
@@ -490,6 +497,11 @@ where
         let none = StabilityLoad { normal_drag: f64::INFINITY, ..StabilityLoad::default() };
         let one = |class: &Class| self.strongest_drag(class, classes).unwrap_or(none);
         classes.iter().map(one).collect()
+    }
+
+    fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> StabilityLoad {
+        let bridge = column.bridge();
+        bridge.map_or_else(Default::default, |b| self.drag_on_limit(b, pair.encounter.gap))
     }
 }
 

@@ -7,7 +7,7 @@ use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use pendular::dem::{DVec3, Particle, Partner, Simulation, Snapshot, Touch, WallMemory};
-use pendular::{Counts, Ledger, LedgerParts, LiveState, MeshWalls, WetState};
+use pendular::{Budget, Counts, Ledger, LedgerParts, LiveState, MeshWalls, WetState};
 use serde::{Deserialize, Serialize};
 
 use crate::build::WetTerm;
@@ -19,7 +19,7 @@ use crate::tally::Gone;
 const NAME: &str = "checkpoint.bin";
 const MAGIC: &[u8; 8] = b"PENDULAR";
 /// Changes whenever [`Checkpoint`] does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What is wrong with a checkpoint.
 #[derive(Debug, thiserror::Error)]
@@ -57,6 +57,8 @@ pub(crate) struct Checkpoint {
     pub(crate) screening: Screening,
     pub(crate) gone: Gone,
     pub(crate) start: Start,
+    pub(crate) budget: Budget,
+    pub(crate) limit: f64,
     /// Bytes of each table.
     pub(crate) tables: Vec<u64>,
     pub(crate) rows: u64,
@@ -94,6 +96,7 @@ pub(crate) struct StoredWet {
     live: Vec<Option<StoredBridge>>,
     counts: [u64; 3],
     thickest: f64,
+    lost: f64,
 }
 
 /// Radius, mate, volume, angles, transfer ratio; the two bodies, the second of them a wall or not.
@@ -156,7 +159,7 @@ impl Core {
 impl StoredWet {
     /// The liquid as it is stored.
     pub(crate) fn of(wet: &WetTerm) -> Self {
-        let WetState { ledger, live, counts, thickest } = wet.state();
+        let WetState { ledger, live, counts, thickest, capillary_loss: lost } = wet.state();
         let LedgerParts { films, walls, bridges, free, drained, initial } = ledger.parts();
         let bridge = |live: LiveState| {
             let [a, b] = live.contact_angles;
@@ -169,12 +172,13 @@ impl StoredWet {
         };
         let live = live.into_iter().map(|one| one.map(bridge)).collect();
         let counts = [counts.formed, counts.ruptured, counts.extrapolated];
-        Self { films, walls, bridges, free, drained, initial, live, counts, thickest }
+        Self { films, walls, bridges, free, drained, initial, live, counts, thickest, lost }
     }
 
     /// The state of the liquid term.
     pub(crate) fn state(self) -> WetState {
-        let Self { films, walls, bridges, free, drained, initial, live, counts, thickest } = self;
+        let Self { films, walls, bridges, free, drained, initial, live, counts, thickest, lost } =
+            self;
         let parts = LedgerParts { films, walls, bridges, free, drained, initial };
         let bridge = |(numbers, first, second, wall): StoredBridge| {
             let [radius, mate, volume, a, b, transfer_ratio] = numbers;
@@ -188,6 +192,7 @@ impl StoredWet {
             live: live.into_iter().map(|one| one.map(bridge)).collect(),
             counts: Counts { formed, ruptured, extrapolated },
             thickest,
+            capillary_loss: lost,
         }
     }
 }

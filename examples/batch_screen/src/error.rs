@@ -53,6 +53,12 @@ pub(crate) enum RunError {
     ParaView(#[from] crate::vtk::VtkError),
     #[error("stopped as asked; go on with: batch_screen resume {}", folder.display())]
     Stopped { folder: PathBuf },
+    #[error(
+        "the run stopped at t = {time:.6} s: the packing has become stiffer than the time step allows: \
+         {time_step:.3e} s is above {allowed:.3e} s, set by the {term} of class {class}; run it again \
+         with a smaller time step"
+    )]
+    Unstable { time: f64, time_step: f64, allowed: f64, class: String, term: &'static str },
     #[error("the run stopped: {0}")]
     Simulation(pendular::dem::SimulationError),
 }

@@ -1,5 +1,6 @@
 //! Moist batch screening: spheres with liquid on a vibrating wire screen.
 
+mod budget;
 mod build;
 mod builtin;
 mod check;
@@ -50,7 +51,7 @@ fn main() -> ExitCode {
             // 2: the input is wrong; 3: the run went wrong; 130: stopped by a signal; 1: the rest.
             ExitCode::from(match error {
                 RunError::Scene(_) => 2,
-                RunError::Simulation(_) => 3,
+                RunError::Simulation(_) | RunError::Unstable { .. } => 3,
                 RunError::Stopped { .. } => 130,
                 _ => 1,
             })

@@ -1,7 +1,8 @@
 //! The two make-ups of a screening run: dry, and with liquid.
 
+use pendular::BridgeForces;
 use pendular::contact::Linear;
-use pendular::dem::{Contact, DVec3, PairTerm, Spring};
+use pendular::dem::{Contact, ContactForces, DVec3, Pair, PairTerm, Spring};
 use pendular::pair::OutOfRange;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,8 @@ pub(crate) trait Makeup: PairTerm + Sized {
     fn store(column: &Self::Column) -> StoredPair;
     /// A stored column.
     fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange>;
+    /// What acts in a pair, force by force.
+    fn forces(&self, pair: &Pair, column: &Self::Column) -> (ContactForces, Option<BridgeForces>);
 }
 
 impl Makeup for Contact<Linear> {
@@ -42,6 +45,10 @@ impl Makeup for Contact<Linear> {
     fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange> {
         Ok(Spring::new(DVec3::from_array(stored.stretch), ()))
     }
+
+    fn forces(&self, pair: &Pair, column: &Self::Column) -> (ContactForces, Option<BridgeForces>) {
+        (Contact::forces(self, pair, column), None)
+    }
 }
 
 impl Makeup for (Contact<Linear>, WetTerm) {
@@ -59,5 +66,15 @@ impl Makeup for (Contact<Linear>, WetTerm) {
 
     fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange> {
         Ok((self.0.load_pair(stored)?, self.1.column(stored.bridge)?))
+    }
+
+    fn forces(
+        &self,
+        pair: &Pair,
+        (spring, hold): &Self::Column,
+    ) -> (ContactForces, Option<BridgeForces>) {
+        let live = hold.bridge().and_then(|bridge| self.1.live(bridge));
+        let bridge = live.and_then(|live| self.1.forces(live, pair).ok());
+        (self.0.forces(pair, spring), bridge)
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::budget;
 use crate::build::{Built, Derived};
 use crate::error::RunError;
 use crate::run::Outcome;
@@ -100,6 +101,7 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
             tally.counts.formed, tally.counts.extrapolated, tally.imbalance
         );
     }
+    text += &budget::text(&outcome.budget, tally.capillary_loss);
     let seconds = outcome.wall_time.as_secs_f64();
     text += &format!(
         "  {} steps in {seconds:.1} s; largest overlap {:.2} % of a radius",
@@ -180,6 +182,8 @@ pub(crate) fn summary(
         },
         "liquid_imbalance": tally.imbalance,
         "largest_overlap": outcome.largest_overlap,
+        "least_limit_s": outcome.limit.is_finite().then_some(outcome.limit),
+        "physics_budget": budget::document(&outcome.budget, tally.capillary_loss),
         "wall_time_s": outcome.wall_time.as_secs_f64(),
         "time_split_s": {
             "neighbours": profile.neighbours.as_secs_f64(),

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use pendular::dem::{Departure, Particle, Profile, Simulation};
-use pendular::{Account, MeshWalls};
+use pendular::{Account, Budget, MeshWalls};
 
+use crate::budget;
 use crate::build::apparatus::collection;
 use crate::build::{Built, Derived, WetTerm};
 use crate::checkpoint::{Checkpoint, Core, StoredWet};
@@ -36,6 +37,9 @@ pub(crate) struct Outcome {
     pub(crate) largest_overlap: f64,
     pub(crate) wall_time: Duration,
     pub(crate) profile: Profile,
+    pub(crate) budget: Budget,
+    /// The least stability limit of the packing at any row, s.
+    pub(crate) limit: f64,
 }
 
 /// What a run is besides its scene.
@@ -121,6 +125,8 @@ struct Run<'a, T: Makeup> {
     vtk_frames: u64,
     rows: u64,
     before: f64,
+    budget: Budget,
+    limit: f64,
 }
 
 impl<'a, T: Makeup> Run<'a, T> {
@@ -156,6 +162,8 @@ impl<'a, T: Makeup> Run<'a, T> {
             vtk_frames,
             rows,
             before,
+            budget: Budget::default(),
+            limit: f64::INFINITY,
         })
     }
 
@@ -190,6 +198,8 @@ impl<'a, T: Makeup> Run<'a, T> {
             vtk_frames: from.vtk_frames,
             rows: from.rows,
             before: from.elapsed,
+            budget: from.budget,
+            limit: from.limit,
             simulation,
         })
     }
@@ -244,6 +254,9 @@ impl<'a, T: Makeup> Run<'a, T> {
             if let Err(error) = advanced {
                 return Err(RunError::Simulation(error));
             }
+            if self.simulation.step().is_multiple_of(budget::EVERY) {
+                budget::look(&self.simulation, &mut self.budget);
+            }
             let stop = self.job.stop.load(Ordering::Relaxed);
             if stop || saved.elapsed().as_secs_f64() >= self.job.checkpoint_every {
                 self.save(begun)?;
@@ -269,6 +282,8 @@ impl<'a, T: Makeup> Run<'a, T> {
             largest_overlap: self.simulation.largest_overlap(),
             wall_time: begun.elapsed() + Duration::from_secs_f64(self.before),
             profile: self.simulation.profile(),
+            budget: self.budget,
+            limit: self.limit,
         }
     }
 
@@ -288,6 +303,8 @@ impl<'a, T: Makeup> Run<'a, T> {
             screening: self.screening.clone(),
             gone: self.gone.clone(),
             start: self.tables.start(),
+            budget: self.budget,
+            limit: self.limit,
             tables: self.tables.lengths()?,
             rows: self.rows,
             frames: self.frames,
@@ -308,9 +325,26 @@ impl<'a, T: Makeup> Run<'a, T> {
 
     fn row(&mut self) -> Result<Tally, RunError> {
         let tally = self.tally();
+        self.stable()?;
         let blocked = self.screening.blocked(&self.simulation);
         self.tables.row(&tally, &blocked, self.apertures)?;
         Ok(tally)
+    }
+
+    /// Stops where the packing has become so stiff that the time step is above its limit.
+    fn stable(&mut self) -> Result<(), RunError> {
+        let (now, settings) = (self.simulation.limit_now(), self.simulation.settings());
+        self.limit = self.limit.min(now.time_step);
+        if settings.time_step <= now.time_step || settings.allow_unstable {
+            return Ok(());
+        }
+        Err(RunError::Unstable {
+            time: self.simulation.time(),
+            time_step: settings.time_step,
+            allowed: now.time_step,
+            class: self.scene.classes[now.class].name.clone(),
+            term: now.term,
+        })
     }
 
     fn frame(&mut self) -> Result<(), RunError> {

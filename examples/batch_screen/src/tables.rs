@@ -78,6 +78,8 @@ const REPLAY: [&str; 7] = ["time_s", "id", "class", "x_m", "y_m", "z_m", "film_m
 const BRIDGES: [&str; 7] =
     ["time_s", "formed", "ruptured", "alive", "alive_wall", "mean_v_star", "extrapolated"];
 
+const ENERGY: [&str; 5] = ["time_s", "kinetic_J", "potential_J", "capillary_J", "capillary_loss_J"];
+
 /// A header cell after another, by name.
 fn header(cells: impl IntoIterator<Item = impl Into<String>>) -> Vec<String> {
     cells.into_iter().map(Into::into).collect()
@@ -210,7 +212,7 @@ impl Tables {
         let partition =
             table("partition.csv", by_class(&["time_s"], &["cut_size_mm", "imperfection"]))?;
         let pegging = table("pegging.csv", by_class(&["time_s", "apertures", "blocked"], &[]))?;
-        let energy = table("energy.csv", header(["time_s", "kinetic_J", "potential_J"]))?;
+        let energy = table("energy.csv", header(ENERGY))?;
         let passages = table("passages.csv", header(PASSAGES))?;
         let replay = table("replay.csv", header(REPLAY))?;
         let mut wet = |name: &str, cells: Vec<String>| match &scene.liquid {
@@ -262,8 +264,9 @@ impl Tables {
         cells.push(blocked.iter().sum::<u64>().to_string());
         cells.extend(blocked.iter().map(u64::to_string));
         self.pegging.lines([cells])?;
-        let cells = vec![time.clone(), number(tally.kinetic), number(tally.potential)];
-        self.energy.lines([cells])?;
+        let energies =
+            [tally.kinetic, tally.potential, tally.capillary, tally.capillary_loss].map(number);
+        self.energy.lines([[time.clone()].into_iter().chain(energies).collect()])?;
         self.liquid_rows(tally, &time)
     }
 

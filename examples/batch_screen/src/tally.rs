@@ -44,6 +44,10 @@ pub(crate) struct Tally {
     pub(crate) kinetic: f64,
     /// Their potential energy above the wire axes, J.
     pub(crate) potential: f64,
+    /// Capillary energy of the live bridges, J; 0 or less.
+    pub(crate) capillary: f64,
+    /// Capillary energy lost so far at formations and ruptures, J.
+    pub(crate) capillary_loss: f64,
 }
 
 /// What has left so far.
@@ -124,6 +128,13 @@ impl Tally {
         self.bridges = wet.ledger().in_bridges();
         self.counts = wet.counts();
         self.imbalance = wet.ledger().imbalance();
+        self.capillary_loss = wet.capillary_loss();
+        simulation.survey(|pair, column| {
+            let bridge = T::store(column).bridge.and_then(|bridge| wet.live(bridge));
+            // Every live bridge has formed, so its law has an energy.
+            let energy = bridge.map(|live| wet.capillary_energy(live, pair.encounter.gap));
+            self.capillary += energy.and_then(Result::ok).unwrap_or(0.0);
+        });
     }
 
     /// Live bridges.

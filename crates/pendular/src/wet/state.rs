@@ -39,6 +39,8 @@ pub struct WetState {
     pub counts: Counts,
     /// Thickest film so far, m.
     pub thickest: f64,
+    /// Capillary energy lost so far, J.
+    pub capillary_loss: f64,
 }
 
 impl<C, N, S> Wet<C, N, S>
@@ -70,6 +72,7 @@ where
             live: self.live.iter().map(|live| live.as_ref().map(plain)).collect(),
             counts: self.counts,
             thickest: self.thickest,
+            capillary_loss: self.capillary_loss,
         }
     }
 
@@ -110,6 +113,7 @@ where
             self.measure(Account::Wall(element))?;
         }
         self.thickest = state.thickest;
+        self.capillary_loss = state.capillary_loss;
         Ok(())
     }
 
