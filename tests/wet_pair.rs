@@ -379,3 +379,37 @@ fn rebound_is_daviss_with_the_logarithm_plus_one() {
         }
     }
 }
+
+/// Two spheres that meet without loss but for the liquid: what the motion has lost when they are
+/// apart again is the work of the bridge between formation and rupture, and that is booked.
+#[test]
+fn the_account_of_capillary_energy_closes() {
+    let classes = [Class::new(1e-3, 2500.0, 0).unwrap(), Class::new(1.5e-3, 2500.0, 0).unwrap()];
+    let particles = rig::two(classes, 2e-4, [0.1, -0.1]);
+    let rub = rig::Rub { stiffness: 1e4, restitution: 1.0, friction: 0.0, rolling: 0.0 };
+    let contact = rig::contact(&classes, rub);
+    let films = rig::films_for(1e-11, classes.map(|class| class.radius()));
+    let laws = rig::static_laws(AnyCapillary::Lambert);
+    let bodies = rig::bodies(&particles, None);
+    let wet = rig::wet(rig::liquid(0.07, 1e-3, 0.2), laws, bodies, films, SplitMethod::Half);
+    let settings = rig::weightless(1e-7);
+    let mut simulation = Simulation::new(particles, (contact, wet), NoWalls, settings).unwrap();
+    let before = simulation.particles().kinetic_energy();
+    let mut live = 0.0;
+    while simulation.term().1.counts().ruptured == 0 {
+        assert!(simulation.time() < 0.02, "they part");
+        simulation.advance(50).unwrap();
+        let term = &simulation.term().1;
+        let mut energy = 0.0;
+        simulation.survey(|pair, (_, hold)| {
+            let bridge = hold.bridge().and_then(|bridge| term.live(bridge)).unwrap();
+            energy += term.capillary_energy(bridge, pair.encounter.gap).unwrap();
+        });
+        live = f64::min(live, energy);
+    }
+    let lost = before - simulation.particles().kinetic_energy();
+    let booked = simulation.term().1.capillary_loss();
+    assert!(lost > 0.05 * before, "the bridge takes a share: {lost:e} of {before:e}");
+    assert!((lost / booked - 1.0).abs() < 5e-3, "{lost:e} {booked:e}");
+    assert!(live < -0.9 * booked, "a live bridge has the energy that it takes: {live:e}");
+}

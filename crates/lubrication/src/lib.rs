@@ -8,6 +8,7 @@ mod goldman_literal;
 mod jeffrey_onishi_1984;
 mod law;
 mod lian_1998;
+mod option;
 mod pitois_2000;
 mod popov_2010;
 mod restitution;

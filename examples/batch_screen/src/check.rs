@@ -6,6 +6,7 @@ use pendular::capillary::AnyCapillary;
 use pendular::lubrication::{NormalModel, TangentialModel};
 use pendular::transfer::AnyRupture;
 
+use crate::auto::{AUTO, NONE};
 use crate::error::SceneError;
 use crate::scene::{LiquidSpec, Packing, Scene};
 
@@ -38,11 +39,23 @@ impl Check<'_> {
         Err(self.fail(key, value, format!("{low} to {high}")))
     }
 
-    fn name<T: std::str::FromStr>(&self, key: &str, name: &str) -> Result<(), SceneError>
+    /// A law's name or one of `words`.
+    fn name<T: std::str::FromStr>(
+        &self,
+        key: &str,
+        name: &str,
+        words: &[&str],
+    ) -> Result<(), SceneError>
     where
         T::Err: std::fmt::Display,
     {
-        name.parse::<T>().map(|_| ()).map_err(|e| self.fail(key, format!("`{name}`"), e))
+        if words.contains(&name) {
+            return Ok(());
+        }
+        name.parse::<T>().map(|_| ()).map_err(|e| {
+            let also = words.iter().fold(e.to_string(), |all, word| format!("{all}, {word}"));
+            self.fail(key, format!("`{name}`"), also)
+        })
     }
 }
 
@@ -205,11 +218,13 @@ fn wet(liquid: &LiquidSpec, check: &Check<'_>) -> Result<(), SceneError> {
     check.positive("liquid.surface_tension", liquid.surface_tension)?;
     check.positive("liquid.viscosity", liquid.viscosity)?;
     check.within("liquid.roughness_share", liquid.roughness_share, 1e-9, 1.0)?;
-    check.name::<AnyCapillary>("liquid.capillary", &liquid.capillary)?;
-    check.name::<AnyCapillary>("liquid.capillary_wall", &liquid.capillary_wall)?;
-    check.name::<NormalModel>("liquid.normal_drag", &liquid.normal_drag)?;
-    check.name::<TangentialModel>("liquid.tangential_drag", &liquid.tangential_drag)?;
-    check.name::<TangentialModel>("liquid.tangential_drag_wall", &liquid.tangential_drag_wall)?;
-    check.name::<AnyRupture>("liquid.rupture", &liquid.rupture)?;
-    check.name::<AnyRupture>("liquid.rupture_wall", &liquid.rupture_wall)
+    check.name::<AnyCapillary>("liquid.capillary", &liquid.capillary, &[AUTO])?;
+    check.name::<AnyCapillary>("liquid.capillary_wall", &liquid.capillary_wall, &[AUTO])?;
+    let drag = &[NONE, AUTO];
+    check.name::<NormalModel>("liquid.normal_drag", &liquid.normal_drag, drag)?;
+    check.name::<TangentialModel>("liquid.tangential_drag", &liquid.tangential_drag, drag)?;
+    let wall = &liquid.tangential_drag_wall;
+    check.name::<TangentialModel>("liquid.tangential_drag_wall", wall, drag)?;
+    check.name::<AnyRupture>("liquid.rupture", &liquid.rupture, &[])?;
+    check.name::<AnyRupture>("liquid.rupture_wall", &liquid.rupture_wall, &[])
 }

@@ -59,6 +59,8 @@ pub(crate) struct Checkpoint {
     pub(crate) start: Start,
     pub(crate) budget: Budget,
     pub(crate) limit: f64,
+    /// What was decided for laws that the scene leaves open.
+    pub(crate) decided: Vec<(String, String)>,
     /// Bytes of each table.
     pub(crate) tables: Vec<u64>,
     pub(crate) rows: u64,

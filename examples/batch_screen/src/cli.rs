@@ -34,6 +34,24 @@ pub(crate) enum Command {
         /// A scene file or the name of a built-in scene.
         scene: String,
     },
+    /// Proposes the smallest scene that gives the same result, with evidence from short runs.
+    Needs {
+        /// A scene file or the name of a built-in scene.
+        scene: String,
+        /// Largest difference that does not matter: of the fraction retained and of the shares of
+        /// the liquid; also the largest share of the impulse of a force that may be left out.
+        #[arg(long, value_name = "X", default_value_t = 0.02, allow_negative_numbers = true)]
+        tolerance: f64,
+        /// Simulated time of each pilot run, s.
+        #[arg(long, value_name = "S", default_value_t = 0.5, allow_negative_numbers = true)]
+        time: f64,
+        /// Folder of settled beds, to be used again; `out/beds` where it is left out.
+        #[arg(long, value_name = "DIR")]
+        beds: Option<PathBuf>,
+        /// Threads. All cores where it is left out.
+        #[arg(long, value_name = "N")]
+        threads: Option<usize>,
+    },
     /// Runs a scene.
     Run(RunArgs),
     /// Goes on with a run from its last checkpoint.

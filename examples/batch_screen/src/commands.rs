@@ -15,7 +15,7 @@ use crate::error::{RunError, SceneError};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::scene::Scene;
-use crate::{builtin, page, report};
+use crate::{auto, builtin, limits, needs, page, report};
 
 /// More threads are taken for a mistake.
 const MOST_THREADS: usize = 1024;
@@ -83,6 +83,7 @@ pub(crate) fn check(name: &str) -> Result<(), RunError> {
     let source = Source { base: &base, beds: None, threads: 1, tell: false };
     let built = build::build(&scene, &source)?;
     println!("{}", report::header(&scene, &built));
+    print!("{}", limits::text(&limits::table(&scene, &built), built.settings.time_step));
     let limit = build::limit(&built);
     let share = 100.0 * built.settings.time_step / limit.time_step;
     let class = &scene.classes[limit.class].name;
@@ -103,6 +104,26 @@ fn within_limit(scene: &Scene, built: &Built) -> Result<(), SceneError> {
     let (allowed, term) = (limit.time_step, limit.term);
     let class = scene.classes[limit.class].name.clone();
     Err(SceneError::TimeStep { time_step, allowed, class, term })
+}
+
+/// Proposes the smallest scene that gives the same result.
+pub(crate) fn needs(
+    name: &str,
+    tolerance: f64,
+    time: f64,
+    beds: Option<&Path>,
+    threads: Option<usize>,
+) -> Result<(), RunError> {
+    let Loaded { mut scene, base, .. } = load(name)?;
+    let here = Path::new("command line");
+    crate::check::interval(here, "tolerance", tolerance)?;
+    crate::check::interval(here, "time", time)?;
+    let kept = Path::new("out").join("beds");
+    let beds = Some(beds.unwrap_or(&kept));
+    let source = Source { base: &base, beds, threads: count_threads(threads)?, tell: true };
+    let decided = auto::decide(&scene, &source)?;
+    auto::apply(&mut scene, &decided);
+    needs::needs(scene, &source, time, tolerance, &|text| println!("{text}"))
 }
 
 /// Runs a scene.
@@ -127,6 +148,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
         threads,
         tell: !(args.how.quiet || args.how.json),
     };
+    let decided = auto::decide(&scene, &source)?;
+    auto::apply(&mut scene, &decided);
     let built = build::build(&scene, &source)?;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
         .map_err(|source| RunError::Write { path: base.clone(), source })?;
@@ -138,6 +161,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
         vtk: args.vtk,
         checkpoint_every: args.how.checkpoint_every,
         stop: stop_flag(),
+        decided,
     };
     finish(&scene, built, &job, None, &args.how)
 }
@@ -149,6 +173,7 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
     scene.time = checkpoint.time;
     scene.time_step = Some(checkpoint.time_step);
     scene.seed = checkpoint.seed;
+    auto::apply(&mut scene, &checkpoint.decided);
     let class = checkpoint.class.clone();
     let built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
     if !(how.quiet || how.json) {
@@ -162,6 +187,7 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
         vtk: checkpoint.vtk,
         checkpoint_every: how.checkpoint_every,
         stop: stop_flag(),
+        decided: checkpoint.decided.clone(),
     };
     finish(&scene, built, &job, Some(checkpoint), how)
 }
@@ -185,6 +211,9 @@ fn finish(
         }
     };
     say(&report::header(scene, &built));
+    if !job.decided.is_empty() {
+        say(&format!("  decided      {}", auto::text(&job.decided)));
+    }
     let derived = built.derived.clone();
     let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style))?;
     say(&report::table(scene, &derived, &outcome));
@@ -207,8 +236,12 @@ pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), RunError> {
 }
 
 fn threads(how: &How) -> Result<usize, SceneError> {
+    count_threads(how.threads)
+}
+
+fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = how.threads.unwrap_or(cores);
+    let threads = asked.unwrap_or(cores);
     if (1..=MOST_THREADS).contains(&threads) {
         return Ok(threads);
     }

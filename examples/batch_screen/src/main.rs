@@ -1,5 +1,6 @@
 //! Moist batch screening: spheres with liquid on a vibrating wire screen.
 
+mod auto;
 mod budget;
 mod build;
 mod builtin;
@@ -9,9 +10,12 @@ mod cli;
 mod commands;
 mod error;
 mod frames;
+mod limits;
 mod makeup;
+mod needs;
 mod packing;
 mod page;
+mod pilot;
 mod progress;
 mod report;
 mod run;
@@ -39,6 +43,9 @@ fn main() -> ExitCode {
         Command::Show { name } => commands::show(&name),
         Command::Sample { file } => commands::sample(&file),
         Command::Check { scene } => commands::check(&scene),
+        Command::Needs { scene, tolerance, time, beds, threads } => {
+            commands::needs(&scene, tolerance, time, beds.as_deref(), threads)
+        }
         Command::Run(args) => commands::run(&args),
         Command::Resume { folder, how } => commands::resume(&folder, &how),
         Command::Report { folder } => commands::report(&folder),

@@ -115,7 +115,7 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
 pub(crate) fn summary(
     path: &Path,
     scene: &Scene,
-    source: &str,
+    (source, decided): (&str, &[crate::auto::Decision]),
     settings: &pendular::dem::Settings,
     derived: &Derived,
     outcome: &Outcome,
@@ -140,6 +140,7 @@ pub(crate) fn summary(
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": source,
         "title": scene.title,
+        "decided": decided.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
         "assumptions": {
             "screen_diameter_mm": scene.screen.diameter_mm,
             "amplitude_mm": scene.motion.amplitude_mm,

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use pendular::dem::{Departure, Particle, Profile, Simulation};
 use pendular::{Account, Budget, MeshWalls};
 
+use crate::auto::Decision;
 use crate::budget;
 use crate::build::apparatus::collection;
 use crate::build::{Built, Derived, WetTerm};
@@ -57,6 +58,8 @@ pub(crate) struct Job {
     pub(crate) checkpoint_every: f64,
     /// Set when the run is to stop at the next occasion.
     pub(crate) stop: Arc<AtomicBool>,
+    /// What was decided for laws that the scene leaves open.
+    pub(crate) decided: Vec<Decision>,
 }
 
 /// Runs a built scene from its start, or goes on from a checkpoint of it.
@@ -305,6 +308,7 @@ impl<'a, T: Makeup> Run<'a, T> {
             start: self.tables.start(),
             budget: self.budget,
             limit: self.limit,
+            decided: self.job.decided.clone(),
             tables: self.tables.lengths()?,
             rows: self.rows,
             frames: self.frames,
@@ -315,7 +319,15 @@ impl<'a, T: Makeup> Run<'a, T> {
         let (settings, outcome) = (self.simulation.settings(), self.outcome(begun));
         let parts = part_names(&self.simulation);
         let source = &self.job.source;
-        report::summary(&path, self.scene, source, settings, &self.derived, &outcome, &parts)?;
+        report::summary(
+            &path,
+            self.scene,
+            (source, &self.job.decided),
+            settings,
+            &self.derived,
+            &outcome,
+            &parts,
+        )?;
         Ok(checkpoint.write(&self.job.out)?)
     }
 

@@ -209,7 +209,7 @@ pub(crate) struct LiquidSpec {
     pub(crate) density: f64,
     pub(crate) surface_tension: f64,
     pub(crate) viscosity: f64,
-    /// Laws by name.
+    /// Laws by name; `auto` leaves the choice to a pilot run, drags may be `none`.
     pub(crate) capillary: String,
     pub(crate) capillary_wall: String,
     pub(crate) normal_drag: String,
@@ -229,6 +229,8 @@ pub(crate) struct LiquidSpec {
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum DynamicRupture {
     None,
+    /// Decided before the run.
+    Auto,
     Pitois,
     Grohn,
 }

@@ -7,4 +7,5 @@ mod determinism;
 mod errors;
 mod impact;
 mod lists;
+mod survey;
 mod walls;

@@ -146,21 +146,23 @@ pub(crate) fn wet(
     Ok(Wet::new(liquid, between, with_walls, split, range, bodies, films)?)
 }
 
-type Laws = PairLaws<AnyCapillary, AnyNormalDrag, AnyTangentialDrag>;
+type Laws = PairLaws<AnyCapillary, Option<AnyNormalDrag>, Option<AnyTangentialDrag>>;
 
 /// The laws by their names, which the scene's check has found to be known.
 fn laws(spec: &LiquidSpec, capillary: &str, tangential: &str, rupture: &str) -> Laws {
     let gap = Gap::RelativeRoughness { fraction: spec.roughness_share };
     let near = Regularisation::from(gap);
     let dynamic = match spec.dynamic_rupture {
-        DynamicRupture::None => Dynamic::None,
+        // What is left open has been decided by now.
+        DynamicRupture::None | DynamicRupture::Auto => Dynamic::None,
         DynamicRupture::Pitois => Dynamic::Pitois2001 { viscosity: spec.viscosity },
         DynamicRupture::Grohn => Dynamic::Grohn2022,
     };
     PairLaws {
         capillary: capillary.parse().unwrap_or(AnyCapillary::Lambert),
-        normal: spec.normal_drag.parse().unwrap_or(NormalModel::Pitois2000).with(near),
-        tangential: tangential.parse().unwrap_or(TangentialModel::Popov2010).with(near),
+        // The scene's check has left no other name than `none`.
+        normal: spec.normal_drag.parse().ok().map(|model: NormalModel| model.with(near)),
+        tangential: tangential.parse().ok().map(|model: TangentialModel| model.with(near)),
         rupture: rupture.parse().unwrap_or(AnyRupture::Willett),
         dynamic,
     }

@@ -19,7 +19,7 @@ use crate::error::SceneError;
 use crate::scene::Scene;
 
 /// The liquid term of every scene: laws chosen at run time.
-pub(crate) type WetTerm = Wet<AnyCapillary, AnyNormalDrag, AnyTangentialDrag>;
+pub(crate) type WetTerm = Wet<AnyCapillary, Option<AnyNormalDrag>, Option<AnyTangentialDrag>>;
 
 /// All that a run is made of.
 pub(crate) struct Built {
@@ -164,8 +164,12 @@ fn settings(
 
 /// The longest stable time step of a built scene.
 pub(crate) fn limit(built: &Built) -> Limit {
-    let classes = built.particles.classes();
-    Limit::packing(classes, &loads(classes, &built.contact, built.wet.as_ref()))
+    Limit::packing(built.particles.classes(), &loads_of(built))
+}
+
+/// The strongest pairs of each class of a built scene.
+pub(crate) fn loads_of(built: &Built) -> Vec<StabilityLoad> {
+    loads(built.particles.classes(), &built.contact, built.wet.as_ref())
 }
 
 fn loads(
