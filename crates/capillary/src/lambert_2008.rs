@@ -89,7 +89,7 @@ impl CapillaryLaw for Lambert2008 {
 }
 
 impl ForceCurve for Lambert2008Curve {
-    #[inline]
+    #[inline(always)]
     fn force(&self, gap: f64) -> f64 {
         let gap = gap.max(0.0);
         let reach = (gap * gap + self.a_squared).sqrt();

@@ -69,6 +69,8 @@ pub(crate) struct Chunk<C> {
     pub(crate) sums: Vec<Sum>,
     pub(crate) rolls: Vec<Roll>,
     pub(crate) notes: Vec<Note>,
+    /// Scratch: the places of those pairs of a list that act and do not touch.
+    pub(crate) apart: Vec<u32>,
     pub(crate) touches: Vec<Touch>,
     pub(crate) memories: Vec<Memory<C>>,
     /// Largest overlap over the smaller radius so far.
@@ -89,6 +91,7 @@ impl<C: Copy + Default> Chunk<C> {
             sums: vec![Sum::default(); slots],
             rolls: vec![Roll::default(); if rolls { slots } else { 0 }],
             notes: Vec::new(),
+            apart: Vec::new(),
             touches: Vec::new(),
             memories: Vec::new(),
             overlap: 0.0,

@@ -237,6 +237,10 @@ where
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
+        // An idle spring is at rest.
+        if pairs.apart {
+            return Loads::none();
+        }
         match &self.between {
             Table::Dense(dense) => {
                 let laws = L::each(|k| {

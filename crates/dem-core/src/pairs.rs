@@ -59,6 +59,9 @@ impl Geometry<f64> {
 pub struct Pairs<'a, L: Lane> {
     pub(crate) view: &'a View<'a>,
     pub(crate) entries: L::Each<Entry>,
+    /// Whether none of these pairs touch; else all of them do. Known where the kernel is compiled,
+    /// so that what only a contact needs costs nothing in a pair that is apart.
+    pub apart: bool,
     /// Where the pairs are and how they move.
     pub geometry: Geometry<L>,
 }

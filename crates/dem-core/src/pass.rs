@@ -57,6 +57,7 @@ impl<'a> View<'a> {
     pub(crate) fn pairs<L: Lane, const ROLLS: bool>(
         &'a self,
         entries: L::Each<Entry>,
+        apart: bool,
     ) -> Pairs<'a, L> {
         let places = |side: usize| L::each(|k| &self.places[entries[k][side] as usize]);
         let velocities = |side: usize| L::each(|k| &self.velocities[entries[k][side] as usize]);
@@ -100,7 +101,7 @@ impl<'a> View<'a> {
             });
             geometry.rolling_inertia = L::splat(1.0) / L::pack(&brake, |b| *b);
         }
-        Pairs { view: self, entries, geometry }
+        Pairs { view: self, entries, apart, geometry }
     }
 }
 
@@ -111,8 +112,8 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
     chunk: &mut Chunk<T::Column>,
 ) {
     let start = Instant::now();
-    let Chunk { range, inside, across, sums, rolls, notes, overlap, pair_time, .. } = chunk;
-    let out = Out { range, sums, rolls, notes, overlap };
+    let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
+    let out = Out { range, sums, rolls, notes, apart, overlap };
     // The widest registers that this machine has; the same operations, the same bits.
     pulp::Arch::new().dispatch(Both::<'_, '_, T, ROLLS> { view, term, inside, across, out });
     *pair_time += start.elapsed();
@@ -142,10 +143,12 @@ struct Out<'a> {
     sums: &'a mut [Sum],
     rolls: &'a mut [Roll],
     notes: &'a mut Vec<Note>,
+    apart: &'a mut Vec<u32>,
     overlap: &'a mut f64,
 }
 
-/// One list: first which pairs act, then what acts in them, several side by side.
+/// One list: first which pairs act, then what acts in them, several side by side. Those that touch
+/// come first, so that neither kind of pair pays for what only the other needs.
 ///
 /// `INSIDE`: both particles are the chunk's own; else the load goes to one of them only, computed
 /// in the same orientation as the chunk of the other one does.
@@ -156,51 +159,74 @@ fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     list: &mut PairList<T::Column>,
     out: &mut Out<'_>,
 ) {
-    let mut acting = [0; TILE + 4];
+    let mut touching = [0; TILE + 4];
     let mut waiting = 0;
+    let mut apart = std::mem::take(out.apart);
+    apart.clear();
     for start in (0..list.active.len()).step_by(TILE) {
-        let count = pick(view, term, list, start, &mut acting, waiting);
-        let (fours, rest) = acting[..count].as_chunks::<4>();
-        waiting = if T::LANES { rest.len() } else { 0 };
-        for at in fours {
-            if T::LANES {
-                block::<T, Four, ROLLS, INSIDE>(view, term, list, at, out);
-            } else {
-                singly::<T, ROLLS, INSIDE>(view, term, list, at, out);
-            }
-        }
-        if !T::LANES {
-            singly::<T, ROLLS, INSIDE>(view, term, list, rest, out);
-        }
+        let count = pick(view, term, list, start, &mut touching, waiting, &mut apart);
+        waiting = fours::<T, ROLLS, INSIDE, false>(view, term, list, &touching[..count], out);
         // What makes no four waits for the next tile.
-        acting.copy_within(count - waiting..count, 0);
+        touching.copy_within(count - waiting..count, 0);
     }
-    singly::<T, ROLLS, INSIDE>(view, term, list, &acting[..waiting], out);
+    singly::<T, ROLLS, INSIDE, false>(view, term, list, &touching[..waiting], out);
+    let waiting = fours::<T, ROLLS, INSIDE, true>(view, term, list, &apart, out);
+    let rest = &apart[apart.len() - waiting..];
+    singly::<T, ROLLS, INSIDE, true>(view, term, list, rest, out);
+    *out.apart = apart;
 }
 
-/// Writes the places of those pairs in a tile that are not idle behind the first `waiting` of
-/// `acting`, without branching on what no processor can foresee.
+/// Writes the places of those pairs in a tile that are not idle: of those that touch behind the
+/// first `waiting` of `touching`, without branching on what no processor can foresee; of the others
+/// to the end of `apart`.
 #[inline(always)]
 fn pick<T: PairTerm>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
     start: usize,
-    acting: &mut [u32; TILE + 4],
+    touching: &mut [u32; TILE + 4],
     waiting: usize,
+    apart: &mut Vec<u32>,
 ) -> usize {
     let end = list.active.len().min(start + TILE);
     let tile = list.active[start..end].iter().zip(&mut list.columns[start..end]);
-    let mut count = waiting;
+    let (mut near, mut far) = (waiting, 0);
+    let mut others = [0; TILE];
     for (index, (&entry, column)) in tile.enumerate() {
-        acting[count] = (start + index) as u32;
-        count += usize::from(!term.idle(&view.meet(entry), column));
+        let encounter = view.meet(entry);
+        let (acts, touches) = (!term.idle(&encounter, column), encounter.gap < 0.0);
+        touching[near] = (start + index) as u32;
+        near += usize::from(acts & touches);
+        others[far % TILE] = (start + index) as u32;
+        far += usize::from(acts & !touches);
     }
-    count
+    apart.extend_from_slice(&others[..far]);
+    near
+}
+
+/// Loads as many of the pairs as make fours; returns how many are left over at the end.
+#[inline(always)]
+fn fours<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+    view: &View<'_>,
+    term: &T,
+    list: &mut PairList<T::Column>,
+    acting: &[u32],
+    out: &mut Out<'_>,
+) -> usize {
+    if !T::LANES {
+        singly::<T, ROLLS, INSIDE, APART>(view, term, list, acting, out);
+        return 0;
+    }
+    let (fours, rest) = acting.as_chunks::<4>();
+    for at in fours {
+        block::<T, Four, ROLLS, INSIDE, APART>(view, term, list, at, out);
+    }
+    rest.len()
 }
 
 #[inline(always)]
-fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
+fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
@@ -208,19 +234,19 @@ fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     out: &mut Out<'_>,
 ) {
     for at in acting {
-        block::<T, f64, ROLLS, INSIDE>(view, term, list, std::slice::from_ref(at), out);
+        block::<T, f64, ROLLS, INSIDE, APART>(view, term, list, std::slice::from_ref(at), out);
     }
 }
 
 #[inline(always)]
-fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
+fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
     at: &[u32],
     out: &mut Out<'_>,
 ) {
-    let pairs = view.pairs::<L, ROLLS>(L::each(|k| list.active[at[k] as usize]));
+    let pairs = view.pairs::<L, ROLLS>(L::each(|k| list.active[at[k] as usize]), APART);
     let loads = term.load_lanes(&pairs, &mut Picked { columns: &mut list.columns, at });
     let g = &pairs.geometry;
     let force = (g.normal * loads.tension + loads.shear).unpack();
@@ -243,11 +269,11 @@ fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
             add(&mut out.sums[slot], force, torques[usize::from(second)][k]);
         }
     }
-    if ROLLS {
+    if ROLLS && !APART {
         brake::<L>(&pairs, loads.rolling, out);
     }
     let smaller = g.radii[0].least(g.radii[1]);
-    if (L::splat(*out.overlap) * smaller).any_less(-g.gap) {
+    if !APART && (L::splat(*out.overlap) * smaller).any_less(-g.gap) {
         let shares = (-g.gap / smaller).unpack();
         *out.overlap = (0..L::WIDTH).fold(*out.overlap, |most, k| most.max(shares[k]));
     }

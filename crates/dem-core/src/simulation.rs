@@ -268,6 +268,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 visits.push(Visit { encounter: note.encounter, column, ending: false });
             }
         }
+        self.lists.visited += visits.len();
         let time = self.time();
         let settled = self.term.settle(&mut visits);
         settled.map_err(|source| SimulationError::Term { time, source })?;

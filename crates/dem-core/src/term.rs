@@ -42,7 +42,7 @@ pub trait PairTerm: Send + Sync {
     const COUPLES: bool = true;
 
     /// Read half for particles, several pairs side by side: to the bit what [`PairTerm::load`] gives
-    /// for each of them.
+    /// for each of them. Either all of them touch or all are apart ([`Pairs::apart`]).
     #[inline(always)]
     fn load_lanes<L: Lane>(
         &self,
@@ -62,6 +62,13 @@ pub trait PairTerm: Send + Sync {
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
         let _ = visits;
         Ok(())
+    }
+
+    /// Brings what the term keeps of each pair outside the column into the order in which the pairs
+    /// are read: `each` calls what it is given with all columns in that order, with both copies of a
+    /// pair that stands in two lists. Called now and then; changes nothing but the speed.
+    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+        let _ = each;
     }
 
     /// Moves to the particle's nearest touch with a wall part what belongs to the part as a whole.
@@ -156,6 +163,11 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         Ok(())
     }
 
+    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+        self.0.arrange(&mut |see| each(&mut |column| see(&mut column.0)));
+        self.1.arrange(&mut |see| each(&mut |column| see(&mut column.1)));
+    }
+
     fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
         self.0.hand_on(&mut from.0, &mut to.0);
         self.1.hand_on(&mut from.1, &mut to.1);
@@ -212,6 +224,12 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
         self.as_mut().map_or(Ok(()), |term| term.settle(visits))
+    }
+
+    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+        if let Some(term) = self {
+            term.arrange(each);
+        }
     }
 
     fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {

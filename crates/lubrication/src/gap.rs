@@ -130,7 +130,7 @@ pub(crate) struct Clearance {
 
 impl Clearance {
     /// The clearance s that stands for `gap`, m; positive.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, gap: f64) -> f64 {
         if self.cut_off { gap.max(self.contact) } else { gap.max(0.0) + self.contact }
     }

@@ -82,7 +82,7 @@ impl NormalDrag for Pitois2000 {
 
 impl Pitois2000Curve {
     /// K X²/s at the clearance s > 0; X written without cancellation.
-    #[inline]
+    #[inline(always)]
     fn open(&self, clearance: f64) -> f64 {
         let slant = (clearance * clearance + self.width_squared).sqrt();
         let wetted = self.width_squared / (slant * (slant + clearance));
@@ -91,7 +91,7 @@ impl Pitois2000Curve {
 }
 
 impl NormalCurve for Pitois2000Curve {
-    #[inline]
+    #[inline(always)]
     fn coefficient(&self, gap: f64) -> f64 {
         if gap < 0.0 {
             return self.contact_coefficient * self.clearance.weight(gap);

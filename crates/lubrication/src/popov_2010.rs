@@ -79,14 +79,14 @@ impl TangentialDrag for Popov2010 {
 
 impl Popov2010Curve {
     /// The slip resistance at a clearance, m, without the fade in overlap.
-    #[inline]
+    #[inline(always)]
     fn open(&self, clearance: f64) -> f64 {
         self.scale * (1.0 + self.half_radius / clearance).ln()
     }
 }
 
 impl TangentialCurve for Popov2010Curve {
-    #[inline]
+    #[inline(always)]
     fn resistance(&self, gap: f64) -> Resistance {
         let slip = if gap < 0.0 {
             self.contact * self.clearance.weight(gap)

@@ -46,8 +46,7 @@ pub use pendular_transfer as transfer;
 pub use pendular_walls as walls;
 pub use split::SplitMethod;
 pub use wet::{
-    Bodies, BridgeForces, Column, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError,
-    WetState,
+    Bodies, BridgeForces, Counts, Hold, LiveBridge, LiveState, WallElement, Wet, WetError, WetState,
 };
 
 /// The README's program runs as a test.

@@ -12,6 +12,9 @@ use crate::order::chunk_size;
 use crate::particles::{Class, Particles};
 use crate::{Boundary, PairTerm, wall_pass};
 
+/// The term arranges what it keeps once one particle in so many has seen a pair settled.
+const ARRANGE: usize = 16;
+
 /// How far bodies may still move before a list can miss a pair.
 ///
 /// Each budget is the sum over steps of the largest speed times the step: it can only
@@ -29,6 +32,8 @@ pub(super) struct State {
     reach: f64,
     wall_reach: f64,
     built_at: Vec<DVec3>,
+    /// Pairs that were settled since the term last arranged what it keeps.
+    pub(super) visited: usize,
 }
 
 impl State {
@@ -49,6 +54,7 @@ impl State {
             reach: 0.0,
             wall_reach: 0.0,
             built_at: Vec::new(),
+            visited: 0,
         }
     }
 
@@ -57,6 +63,7 @@ impl State {
         self.chunk_size = chunk_size;
         self.built_at = vec![DVec3::ZERO; particles.len()];
         (self.outer, self.inner, self.walls) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        self.visited = particles.len();
     }
 
     /// A step was made: no particle moved farther than `particle` m, no wall farther than `wall`.
@@ -89,7 +96,24 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         if wall_stale {
             self.find_walls(reach);
         }
+        if prune && ARRANGE * self.lists.visited >= self.particles.len() {
+            self.arrange();
+        }
         self.profile.neighbours += start.elapsed();
+    }
+
+    /// Lets the term bring what it keeps of the pairs into the order of the lists.
+    fn arrange(&mut self) {
+        let chunks = &mut self.chunks;
+        self.term.arrange(&mut |see| {
+            for chunk in &mut *chunks {
+                chunk.inside.columns.iter_mut().for_each(&mut *see);
+                chunk.across.columns.iter_mut().for_each(&mut *see);
+                let memories = chunk.walls.iter_mut().flat_map(|wall| &mut wall.memories);
+                memories.for_each(|memory| see(&mut memory.column));
+            }
+        });
+        self.lists.visited = 0;
     }
 
     /// Whether the true displacements since the last build, the common one taken out, allow to

@@ -1,10 +1,10 @@
 //! What acts in bridges, one at a time or several side by side.
 
+use std::borrow::Borrow;
+
 use pendular_capillary::ForceCurve;
 use pendular_dem_core::{Geometry, Lane, Loads};
 use pendular_lubrication::{NormalCurve, Resistance, TangentialCurve};
-
-use super::Hold;
 
 /// The forces of one bridge at one gap, before any velocity is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -15,22 +15,23 @@ pub(super) struct Pull {
     drag: f64,
     /// Drag across it, N s/m, before the fade.
     resistance: Resistance,
-    /// Drags fade in overlap by exp of this, at most 0.
-    exponent: f64,
+    /// In overlap drags fade by exp of this times the gap, 1/m; negative where that is not so and
+    /// the curves have to be asked.
+    pub(super) fade: f64,
 }
 
 impl Pull {
     /// In place of the forces at contact where the curves have to be asked.
-    pub(super) const UNKNOWN: Self = Self {
+    const UNKNOWN: Self = Self {
         tension: 0.0,
         drag: 0.0,
         resistance: Resistance { slip: 0.0, coupling: 0.0, rolling: 0.0 },
-        exponent: -1.0,
+        fade: -1.0,
     };
 
     /// What three curves give at a gap.
     #[inline(always)]
-    fn at(
+    pub(super) fn at(
         (capillary, normal, tangential): &(impl ForceCurve, impl NormalCurve, impl TangentialCurve),
         gap: f64,
     ) -> Self {
@@ -38,64 +39,91 @@ impl Pull {
             tension: capillary.force(gap),
             drag: normal.coefficient(gap),
             resistance: tangential.resistance(gap),
-            exponent: 0.0,
+            fade: 0.0,
         }
     }
 
-    /// The forces at contact, with the inverse fading length in place of the exponent: all that
-    /// overlap needs. [`Self::UNKNOWN`] if the curves do not fade alike.
+    /// No bridge.
+    pub(super) const NONE: Self = Self { fade: 0.0, ..Self::UNKNOWN };
+
+    /// The forces at contact: all that overlap needs. [`Self::UNKNOWN`] if the curves do not fade alike.
     pub(super) fn contact(
         curves: &(impl ForceCurve, impl NormalCurve, impl TangentialCurve),
     ) -> Self {
         let (normal, tangential) = (curves.1.fade(), curves.2.fade());
         match normal.filter(|_| normal == tangential) {
-            Some(exponent) => Self { exponent, ..Self::at(curves, 0.0) },
+            Some(fade) => Self { fade, ..Self::at(curves, 0.0) },
             None => Self::UNKNOWN,
         }
     }
 }
 
-impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Hold<C, N, S> {
-    /// The forces at a gap below the static rupture distance; `None` above it or without a bridge.
-    #[inline(always)]
-    pub(super) fn near(&self, gap: f64) -> Option<Pull> {
-        let exponent = gap * self.contact.exponent;
-        if exponent <= 0.0 && gap < 0.0 {
-            return Some(Pull { exponent, ..self.contact });
-        }
-        // A pair without bridge has no rupture distance.
-        if gap <= self.rupture { self.far(gap) } else { None }
-    }
-
-    /// The forces by the curves; `None` without a bridge.
-    #[inline(always)]
-    pub(super) fn far(&self, gap: f64) -> Option<Pull> {
-        self.curves.as_ref().map(|curves| Pull::at(curves, gap))
-    }
+/// The same of bridges side by side.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pulls<L> {
+    tension: L,
+    drag: L,
+    slip: L,
+    coupling: L,
+    rolling: L,
 }
 
-/// What bridges do, given their forces.
-#[inline(always)]
-pub(super) fn act<L: Lane>(pulls: &L::Each<Pull>, pairs: &Geometry<L>) -> Loads<L> {
-    let weight = fade::<L>(pulls);
-    let slip = L::pack(pulls, |p| p.resistance.slip) * weight;
-    let drag = L::pack(pulls, |p| p.drag) * weight;
-    let mut loads = Loads {
-        tension: L::pack(pulls, |p| p.tension) + drag * pairs.separation_speed,
-        shear: -(pairs.slip * slip),
-        ..Loads::none()
-    };
-    let coupled = |p: &Pull| p.resistance.coupling != 0.0 || p.resistance.rolling != 0.0;
-    if (0..L::WIDTH).any(|k| coupled(&pulls[k])) {
-        let coupling = L::pack(pulls, |p| p.resistance.coupling) * weight;
-        let rolling = L::pack(pulls, |p| p.resistance.rolling) * weight;
-        let reduced = reduced_radius(pairs.radii);
-        let turning = pairs.spin.cross(pairs.half_step_normal) * reduced;
-        loads.shear = loads.shear - turning * coupling;
-        let force = -(pairs.slip * coupling + turning * rolling);
-        loads.couple = pairs.normal.cross(force) * reduced;
+impl<L: Lane> Pulls<L> {
+    #[inline(always)]
+    pub(super) fn pack<P: Borrow<Pull>>(pulls: &L::Each<P>) -> Self {
+        Self {
+            tension: L::pack(pulls, |p| p.borrow().tension),
+            drag: L::pack(pulls, |p| p.borrow().drag),
+            slip: L::pack(pulls, |p| p.borrow().resistance.slip),
+            coupling: L::pack(pulls, |p| p.borrow().resistance.coupling),
+            rolling: L::pack(pulls, |p| p.borrow().resistance.rolling),
+        }
     }
-    loads
+
+    /// Puts single bridges side by side.
+    #[inline(always)]
+    pub(super) fn side_by_side(one: &L::Each<Pulls<f64>>) -> Self {
+        Self {
+            tension: L::pack(one, |p| p.tension),
+            drag: L::pack(one, |p| p.drag),
+            slip: L::pack(one, |p| p.slip),
+            coupling: L::pack(one, |p| p.coupling),
+            rolling: L::pack(one, |p| p.rolling),
+        }
+    }
+
+    /// The same with drags that have faded in overlap.
+    #[inline(always)]
+    pub(super) fn faded<P: Borrow<Pull>>(pulls: &L::Each<P>, exponent: L) -> Self {
+        let all = Self::pack(pulls);
+        let weight = fade(exponent);
+        Self {
+            tension: all.tension,
+            drag: all.drag * weight,
+            slip: all.slip * weight,
+            coupling: all.coupling * weight,
+            rolling: all.rolling * weight,
+        }
+    }
+
+    /// What bridges do, given their forces.
+    #[inline(always)]
+    pub(super) fn act(&self, pairs: &Geometry<L>) -> Loads<L> {
+        let mut loads = Loads {
+            tension: self.tension + self.drag * pairs.separation_speed,
+            shear: -(pairs.slip * self.slip),
+            ..Loads::none()
+        };
+        let (coupling, rolling) = (self.coupling, self.rolling);
+        if L::splat(0.0).any_less(coupling.most(-coupling) + rolling.most(-rolling)) {
+            let reduced = reduced_radius(pairs.radii);
+            let turning = pairs.spin.cross(pairs.half_step_normal) * reduced;
+            loads.shear = loads.shear - turning * coupling;
+            let force = -(pairs.slip * coupling + turning * rolling);
+            loads.couple = pairs.normal.cross(force) * reduced;
+        }
+        loads
+    }
 }
 
 /// Below this exponent the series is not used.
@@ -103,8 +131,7 @@ const SERIES: f64 = -1.4;
 
 /// exp of the exponents, 1 to the bit at 0.
 #[inline(always)]
-fn fade<L: Lane>(pulls: &L::Each<Pull>) -> L {
-    let exponent = L::pack(pulls, |p| p.exponent);
+fn fade<L: Lane>(exponent: L) -> L {
     let mut weight = series(exponent);
     if exponent.any_less(L::splat(SERIES)) {
         let exact = exponent.unpack();
@@ -157,13 +184,12 @@ mod tests {
 
     #[test]
     fn the_fade_is_the_exponential() {
-        let pull = |exponent: f64| Pull { exponent, ..Pull::default() };
         for k in 0..4000 {
             let exponent = -1e-3 * f64::from(k);
-            let four = [pull(exponent), pull(0.0), pull(f64::NEG_INFINITY), pull(-1.5)];
-            let weights = fade::<Four>(&four).unpack();
+            let four = [exponent, 0.0, f64::NEG_INFINITY, -1.5];
+            let weights = fade(Four::pack(&four, |e| *e)).unpack();
             assert!((weights[0] / exponent.exp() - 1.0).abs() < 1e-15, "{exponent}");
-            assert_eq!(weights[0], fade::<f64>(&[pull(exponent)]));
+            assert_eq!(weights[0], fade(exponent));
             assert_eq!((weights[1], weights[2]), (1.0, 0.0));
         }
     }

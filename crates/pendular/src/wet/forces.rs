@@ -37,7 +37,7 @@ where
     /// The live bridge of an account.
     #[must_use]
     pub fn live(&self, bridge: u32) -> Option<&LiveBridge> {
-        self.live.get(bridge as usize)?.as_ref()
+        self.live.get(bridge as usize)?.as_ref().map(|seated| &seated.live)
     }
 
     /// What acts in a live bridge, by the same laws as the step.

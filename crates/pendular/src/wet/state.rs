@@ -6,7 +6,8 @@ use pendular_lubrication::{NormalDrag, TangentialDrag};
 use pendular_pair::{Bridge, Mate, OutOfRange};
 use pendular_transfer::Split;
 
-use super::{Column, LiveBridge, Wet, WetError};
+use super::shelf::{Hold, Shelf};
+use super::{LiveBridge, Seated, Wet, WetError};
 use crate::{Account, Counts, Ledger};
 
 /// A live bridge as plain numbers.
@@ -69,7 +70,11 @@ where
         };
         WetState {
             ledger: self.ledger.clone(),
-            live: self.live.iter().map(|live| live.as_ref().map(plain)).collect(),
+            live: self
+                .live
+                .iter()
+                .map(|one| one.as_ref().map(|seated| plain(&seated.live)))
+                .collect(),
             counts: self.counts,
             thickest: self.thickest,
             capillary_loss: self.capillary_loss,
@@ -89,21 +94,25 @@ where
             let quantity = "number of films in the state";
             return Err(OutOfRange { quantity, value, allowed: (bodies, bodies) }.into());
         }
+        let tension = self.liquid.surface_tension;
         let live = |state: LiveState| -> Result<LiveBridge, OutOfRange> {
             let mate = match state.second {
                 Partner::Particle(_) => Mate::Sphere { radius: state.mate },
                 Partner::Wall(_) => Mate::Wall { half_side: state.mate },
             };
-            let tension = self.liquid.surface_tension;
             let LiveState { radius, volume, contact_angles, first, second, .. } = state;
             let bridge = Bridge::new(radius, mate, volume, contact_angles, tension)?;
             Ok(LiveBridge { bridge, split: Split::new(state.transfer_ratio)?, first, second })
         };
-        self.live = state
-            .live
-            .into_iter()
-            .map(|one| one.map(live).transpose())
-            .collect::<Result<_, OutOfRange>>()?;
+        (self.live, self.shelf) = (Vec::with_capacity(state.live.len()), Shelf::default());
+        for one in state.live {
+            let live = one.map(live).transpose()?;
+            let seated = live.map(|live| -> Result<Seated, OutOfRange> {
+                let seat = self.shelf.put(self.curves(&live)?);
+                Ok(Seated { live, seat })
+            });
+            self.live.push(seated.transpose()?);
+        }
         self.ledger = state.ledger;
         self.counts = state.counts;
         for id in 0..self.thickness.len() as u32 {
@@ -121,16 +130,16 @@ where
     /// bridge for `None`.
     ///
     /// # Errors
-    /// [`OutOfRange`] if there is no such bridge, or a law does not take it.
-    pub fn column(&self, bridge: Option<u32>) -> Result<Column<C, N, S>, OutOfRange> {
-        let Some(account) = bridge else { return Ok(Column::<C, N, S>::default()) };
-        let live = self.live.get(account as usize).copied().flatten();
+    /// [`OutOfRange`] if there is no such bridge.
+    pub fn column(&self, bridge: Option<u32>) -> Result<Hold, OutOfRange> {
+        let Some(account) = bridge else { return Ok(Hold::default()) };
+        let seated = self.live.get(account as usize).and_then(Option::as_ref);
         let last = self.live.len() as f64;
         let missing = OutOfRange {
             quantity: "number of a live bridge",
             value: f64::from(account),
             allowed: (0.0, last),
         };
-        self.hold(account, &live.ok_or(missing)?)
+        seated.map(|seated| Hold::new(account, seated.seat)).ok_or(missing)
     }
 }

@@ -1,0 +1,173 @@
+//! Where the forces of the live bridges are kept: outside the lists of the pairs, which every step
+//! goes through, and in their order.
+
+use pendular_capillary::ForceCurve;
+use pendular_dem_core::{Columns, Lane, Pairs};
+use pendular_lubrication::{NormalCurve, TangentialCurve};
+
+use super::act::{Pull, Pulls};
+
+/// No bridge.
+const DRY: u32 = u32::MAX;
+
+/// What a pair remembers of its bridge.
+#[derive(Debug, Clone, Copy)]
+pub struct Hold {
+    bridge: u32,
+    /// Where on the shelf its forces are.
+    seat: u32,
+}
+
+impl Hold {
+    pub(super) fn new(bridge: u32, seat: u32) -> Self {
+        Self { bridge, seat }
+    }
+
+    /// Number of the pair's bridge account, if it has a bridge.
+    #[must_use]
+    #[inline(always)]
+    pub fn bridge(&self) -> Option<u32> {
+        (self.bridge != DRY).then_some(self.bridge)
+    }
+}
+
+impl Default for Hold {
+    fn default() -> Self {
+        Self { bridge: DRY, seat: DRY }
+    }
+}
+
+/// Where the forces are kept is no part of what is remembered.
+impl PartialEq for Hold {
+    fn eq(&self, other: &Self) -> bool {
+        self.bridge == other.bridge
+    }
+}
+
+/// What acts in an open gap.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Far<C, N, S> {
+    /// Static rupture distance, m.
+    pub(super) rupture: f64,
+    pub(super) curves: (C, N, S),
+}
+
+/// The forces of all live bridges by their seats. In overlap only those at contact are looked at.
+pub(super) struct Shelf<C, N, S> {
+    contact: Vec<Pull>,
+    far: Vec<Far<C, N, S>>,
+    free: Vec<u32>,
+}
+
+impl<C, N, S> Default for Shelf<C, N, S> {
+    fn default() -> Self {
+        Self { contact: Vec::new(), far: Vec::new(), free: Vec::new() }
+    }
+}
+
+impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
+    /// A seat for a new bridge.
+    pub(super) fn put(&mut self, far: Far<C, N, S>) -> u32 {
+        let contact = Pull::contact(&far.curves);
+        if let Some(seat) = self.free.pop() {
+            self.contact[seat as usize] = contact;
+            self.far[seat as usize] = far;
+            return seat;
+        }
+        self.contact.push(contact);
+        self.far.push(far);
+        (self.far.len() - 1) as u32
+    }
+
+    /// The seat is free again.
+    pub(super) fn leave(&mut self, seat: u32) {
+        self.free.push(seat);
+    }
+
+    /// The forces of pairs side by side, all apart or all in overlap; `None` if any has no bridge or
+    /// is beyond its static rupture distance.
+    #[inline(always)]
+    pub(super) fn pulls<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Hold>,
+    ) -> Option<Pulls<L>> {
+        let seats = L::each(|k| columns.column(k).seat as usize);
+        let gap = pairs.geometry.gap;
+        if pairs.apart { self.apart(&seats, gap) } else { self.overlapping(&seats, gap) }
+    }
+
+    #[inline(always)]
+    fn overlapping<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
+        let mut all = true;
+        let pulls = L::each(|k| {
+            let pull = self.contact.get(seats[k]);
+            all &= pull.is_some();
+            pull.unwrap_or(&Pull::NONE)
+        });
+        let exponent = gap * L::pack(&pulls, |pull| pull.fade);
+        (all && !L::splat(0.0).any_less(exponent)).then(|| Pulls::faded(&pulls, exponent))
+    }
+
+    #[inline(always)]
+    fn apart<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
+        let gaps = gap.unpack();
+        let mut pulls = L::each(|_| Pull::NONE);
+        for k in 0..L::WIDTH {
+            let far = self.far.get(seats[k])?;
+            if gaps[k] > far.rupture {
+                return None;
+            }
+            pulls[k] = Pull::at(&far.curves, gaps[k]);
+        }
+        Some(Pulls::pack(&pulls))
+    }
+
+    /// The forces of one pair; `None` without a bridge or beyond its static rupture distance.
+    pub(super) fn pull(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
+        let seat = hold.seat as usize;
+        if gap < 0.0 {
+            let overlapping = self.overlapping(&[seat], gap);
+            if overlapping.is_some() {
+                return overlapping;
+            }
+        }
+        let far = self.far.get(seat)?;
+        (gap <= far.rupture).then(|| Pulls::pack(&[Pull::at(&far.curves, gap)]))
+    }
+
+    /// The forces of one pair by the curves at whatever gap; `None` without a bridge.
+    pub(super) fn beyond(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
+        let far = self.far.get(hold.seat as usize)?;
+        Some(Pulls::pack(&[Pull::at(&far.curves, gap)]))
+    }
+
+    /// Static rupture distance, m.
+    pub(super) fn rupture(&self, hold: &Hold) -> Option<f64> {
+        self.far.get(hold.seat as usize).map(|far| far.rupture)
+    }
+
+    /// Gives out all seats anew, in the order in which `each` goes through the pairs; returns the
+    /// new seats by bridge.
+    pub(super) fn arrange(
+        &mut self,
+        bridges: usize,
+        each: &mut dyn FnMut(&mut dyn FnMut(&mut Hold)),
+    ) -> Vec<u32> {
+        let mut seats = vec![DRY; bridges];
+        let mut order = Vec::with_capacity(self.far.len());
+        each(&mut |hold| {
+            let Some(seat) = seats.get_mut(hold.bridge as usize) else { return };
+            // A pair may stand in two lists.
+            if *seat == DRY {
+                *seat = order.len() as u32;
+                order.push(hold.seat as usize);
+            }
+            hold.seat = *seat;
+        });
+        self.contact = order.iter().map(|&seat| self.contact[seat]).collect();
+        self.far = order.iter().map(|&seat| self.far[seat]).collect();
+        self.free.clear();
+        seats
+    }
+}

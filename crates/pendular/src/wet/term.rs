@@ -1,0 +1,210 @@
+//! Bridges as a term between bodies.
+
+use pendular_capillary::CapillaryLaw;
+use pendular_dem_core::{
+    Class, Columns, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs, StabilityLoad,
+    TermError, Visit,
+};
+use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
+use pendular_pair::{Bridge, Mate, OutOfRange};
+use pendular_transfer::formation;
+
+use super::Wet;
+use super::act::Pulls;
+use super::shelf::Hold;
+use crate::{Account, Move};
+
+impl<C, N, S> PairTerm for Wet<C, N, S>
+where
+    C: CapillaryLaw + Send + Sync,
+    C::Curve: Send + Sync,
+    N: NormalDrag + Send + Sync,
+    N::Curve: Send + Sync,
+    S: TangentialDrag + Send + Sync,
+    S::Curve: Send + Sync,
+{
+    type Column = Hold;
+
+    fn reach(&self) -> f64 {
+        2.0 * self.thickest
+    }
+
+    #[inline]
+    fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
+        if column.bridge().is_some() {
+            return false;
+        }
+        // The thickest film there ever was decides most pairs without a look at their own.
+        !encounter.nearest
+            || encounter.gap > 2.0 * self.thickest
+            || !formation::films_touch(encounter.gap, self.thicknesses(encounter))
+    }
+
+    const LANES: bool = true;
+
+    #[inline]
+    fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
+        let near = self.shelf.pull(column, pair.encounter.gap);
+        match near.or_else(|| self.apart(pair, column)) {
+            Some(pulls) => pulls.act(&Geometry::of(pair)).single(),
+            None => Load { attention: true, ..Load::default() },
+        }
+    }
+
+    #[inline(always)]
+    fn load_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Hold>,
+    ) -> Loads<L> {
+        match self.shelf.pulls(pairs, columns) {
+            Some(pulls) => pulls.act(&pairs.geometry),
+            None => self.look_apart(pairs, columns),
+        }
+    }
+
+    #[inline]
+    fn live(&self, column: &Self::Column) -> bool {
+        column.bridge().is_some()
+    }
+
+    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        let mut moves = Vec::with_capacity(2 * visits.len());
+        let mut forming = Vec::new();
+        for (k, visit) in visits.iter_mut().enumerate() {
+            let encounter = visit.encounter;
+            if let Some(bridge) = visit.column.bridge() {
+                moves.extend(self.rupture(&encounter, bridge));
+            } else if !visit.ending {
+                let bridge = self.ledger.open_bridge();
+                forming.push((k, bridge, moves.len()));
+                moves.extend(self.claims(&encounter, bridge)?);
+            }
+        }
+        self.ledger.book(&mut moves)?;
+        for visit in visits.iter_mut() {
+            let Some(bridge) = std::mem::take(&mut visit.column).bridge() else { continue };
+            self.lose(bridge, visit.encounter.gap, 1.0)?;
+            if let Some(seated) = self.live[bridge as usize].take() {
+                self.shelf.leave(seated.seat);
+            }
+            self.ledger.close_bridge(bridge);
+            self.counts.ruptured += 1;
+        }
+        for (k, bridge, given) in forming {
+            let volume = self.ledger.volume(Account::Bridge(bridge));
+            if volume >= self.smallest(&visits[k].encounter) {
+                visits[k].column = self.fold(&visits[k].encounter, bridge)?;
+                self.lose(bridge, visits[k].encounter.gap, -1.0)?;
+                self.counts.formed += 1;
+            } else {
+                let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
+                let [first, second] = [back(&moves[given]), back(&moves[given + 1])];
+                self.ledger.book(&mut [first, second])?;
+                self.ledger.close_bridge(bridge);
+            }
+        }
+        for step in &moves {
+            self.measure(step.from)?;
+            self.measure(step.to)?;
+        }
+        Ok(())
+    }
+
+    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Hold))) {
+        let seats = self.shelf.arrange(self.live.len(), each);
+        for (seated, seat) in self.live.iter_mut().zip(seats) {
+            if let Some(seated) = seated {
+                seated.seat = seat;
+            }
+        }
+    }
+
+    fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
+        if from.bridge().is_some() && to.bridge().is_none() {
+            std::mem::swap(from, to);
+        }
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+        // A drag that has no value here allows no time step at all.
+        let none = StabilityLoad { normal_drag: f64::INFINITY, ..StabilityLoad::default() };
+        let one = |class: &Class| self.strongest_drag(class, classes).unwrap_or(none);
+        classes.iter().map(one).collect()
+    }
+
+    fn load_on_limit(&self, pair: &Pair, column: &Hold) -> StabilityLoad {
+        let bridge = column.bridge();
+        bridge.map_or_else(Default::default, |b| self.drag_on_limit(b, pair.encounter.gap))
+    }
+}
+
+impl<C, N, S> Wet<C, N, S>
+where
+    C: CapillaryLaw,
+    N: NormalDrag,
+    S: TangentialDrag,
+{
+    /// What acts where some of the pairs have no bridge or a far one, or forces at contact that say
+    /// nothing of overlap.
+    #[cold]
+    #[inline(never)]
+    fn look_apart<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Hold>,
+    ) -> Loads<L> {
+        let mut attention = 0;
+        let mut pulls = L::each(|_| Pulls::<f64>::default());
+        for k in 0..L::WIDTH {
+            let (pair, column) = (pairs.pair(k), &*columns.column(k));
+            let near = self.shelf.pull(column, pair.encounter.gap);
+            let pull = near.or_else(|| self.apart(&pair, column));
+            attention |= u32::from(pull.is_none()) << k;
+            pulls[k] = pull.unwrap_or_default();
+        }
+        Loads { attention, ..Pulls::<L>::side_by_side(&pulls).act(&pairs.geometry) }
+    }
+
+    /// What acts in a pair without bridge or beyond its static rupture distance; `None` if a bridge
+    /// forms or ruptures.
+    #[cold]
+    fn apart(&self, pair: &Pair, column: &Hold) -> Option<Pulls<f64>> {
+        let (encounter, gap) = (&pair.encounter, pair.encounter.gap);
+        let Some(bridge) = column.bridge() else {
+            let forms =
+                encounter.nearest && formation::films_touch(gap, self.thicknesses(encounter));
+            return (!forms).then(Pulls::default);
+        };
+        let speed = pair.separation_speed.hypot(pair.slip.length());
+        let live = &self.live[bridge as usize].as_ref()?.live;
+        let dynamic = self.laws(live.second).dynamic.curve(&live.bridge);
+        let factor = dynamic.map_or(1.0, |curve| curve.factor(speed));
+        let rupture = self.shelf.rupture(column)?;
+        if gap > rupture * factor { None } else { self.shelf.beyond(column, gap) }
+    }
+
+    /// The drag at contact of the strongest pair that a class can be part of.
+    fn strongest_drag(
+        &self,
+        class: &Class,
+        classes: &[Class],
+    ) -> Result<StabilityLoad, OutOfRange> {
+        let largest = classes.iter().fold(0.0_f64, |r, other| r.max(other.radius()));
+        let pairs =
+            [(&self.between, Mate::Sphere { radius: largest }), (&self.with_walls, Mate::PLANE)];
+        let mut most = StabilityLoad::default();
+        for (laws, mate) in pairs {
+            // The drag coefficients at contact hardly depend on the volume.
+            let volume = 1e-2 * class.radius().powi(3);
+            let tension = self.liquid.surface_tension;
+            let bridge = Bridge::new(class.radius(), mate, volume, [0.0; 2], tension)?;
+            let normal = laws.normal.curve(&bridge, self.liquid.viscosity)?;
+            let tangential = laws.tangential.curve(&bridge, self.liquid.viscosity)?;
+            let slip = tangential.resistance(0.0).slip;
+            most.normal_drag = most.normal_drag.max(normal.coefficient(0.0));
+            most.tangential_drag = most.tangential_drag.max(slip);
+        }
+        Ok(most)
+    }
+}
