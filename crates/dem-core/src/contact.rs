@@ -228,7 +228,7 @@ where
     #[inline(always)]
     fn load(&self, pair: &Pair, mut column: &mut Self::Column) -> Load {
         let law = self.law_of(pair);
-        act([&law], self.rolls, &Geometry::of(pair), &mut column).single()
+        act((), [&law], self.rolls, &Geometry::of(pair), &mut column).single()
     }
 
     #[inline(always)]
@@ -239,7 +239,7 @@ where
     ) -> Loads<L> {
         // An idle spring is at rest.
         if pairs.apart {
-            return Loads::none();
+            return Loads::none(pairs.permit);
         }
         match &self.between {
             Table::Dense(dense) => {
@@ -247,14 +247,14 @@ where
                     let [first, second] = pairs.classes(k);
                     &dense[usize::from(first) * self.classes + usize::from(second)]
                 });
-                act(laws, self.rolls, &pairs.geometry, columns)
+                act(pairs.permit, laws, self.rolls, &pairs.geometry, columns)
             }
             Table::OnDemand(rule) => {
                 let laws = L::each(|k| {
                     let [first, second] = pairs.classes(k);
                     rule(first, Partner::Class(second))
                 });
-                act(L::each(|k| &laws[k]), self.rolls, &pairs.geometry, columns)
+                act(pairs.permit, L::each(|k| &laws[k]), self.rolls, &pairs.geometry, columns)
             }
         }
     }
@@ -291,6 +291,7 @@ where
 /// What acts in pairs side by side; nothing in those that do not touch.
 #[inline(always)]
 fn act<L: Lane, N: NormalContact>(
+    permit: L::Permit,
     laws: L::Each<&PairContact<N>>,
     rolls: bool,
     pairs: &Geometry<L>,
@@ -300,9 +301,9 @@ fn act<L: Lane, N: NormalContact>(
     let mut springs = L::each(|k| *columns.column(k));
     let forces =
         L::each(|k| repulsion(&laws[k].normal, gaps[k], speeds[k], &mut springs[k].memory));
-    let zero = L::splat(0.0);
-    let repulsion = pairs.gap.if_less(zero, L::pack(&forces, |f| *f), zero);
-    let stretch = Vector::<L>::pack(&springs, |s| s.stretch);
+    let zero = L::splat(permit, 0.0);
+    let repulsion = pairs.gap.if_less(zero, L::pack(permit, &forces, |f| *f), zero);
+    let stretch = Vector::<L>::pack(permit, &springs, |s| s.stretch);
     let (shear, stretch) = tangential(&laws, pairs, repulsion, stretch);
     let stretch = stretch.unpack();
     for k in 0..L::WIDTH {
@@ -310,11 +311,11 @@ fn act<L: Lane, N: NormalContact>(
         *columns.column(k) = springs[k];
     }
     let rolling = if rolls {
-        rolling(L::pack(&laws, |law| law.rolling_friction) * repulsion.most(zero), pairs)
+        rolling(L::pack(permit, &laws, |law| law.rolling_friction) * repulsion.most(zero), pairs)
     } else {
-        Vector::zero()
+        Vector::zero(permit)
     };
-    Loads { tension: -repulsion, shear, rolling, ..Loads::none() }
+    Loads { tension: -repulsion, shear, rolling, ..Loads::none(permit) }
 }
 
 /// The normal law's force; whatever where the bodies do not touch.
@@ -342,23 +343,24 @@ fn tangential<L: Lane, N: NormalContact>(
     repulsion: L,
     stretch: Vector<L>,
 ) -> (Vector<L>, Vector<L>) {
+    let permit = pairs.gap.permit();
     let (half, normal, slip) = (pairs.half_step_normal, pairs.normal, pairs.slip);
     let gaps = pairs.gap.unpack();
     let stiffness = L::each(|k| laws[k].normal.tangential_stiffness(-gaps[k]));
-    let stiffness = L::pack(&stiffness, |k| *k);
-    let before = stretch - half * stretch.dot(half) + slip * L::splat(pairs.time_step);
+    let stiffness = L::pack(permit, &stiffness, |k| *k);
+    let before = stretch - half * stretch.dot(half) + slip * L::splat(permit, pairs.time_step);
     let now = before - normal * before.dot(normal);
-    let dashpot = slip * L::pack(laws, |law| law.tangential_damping);
+    let dashpot = slip * L::pack(permit, laws, |law| law.tangential_damping);
     let trial = -(now * stiffness) - dashpot;
-    let limit = L::pack(laws, |law| law.friction) * repulsion.most(-repulsion);
-    let (zero, one) = (L::splat(0.0), L::splat(1.0));
+    let limit = L::pack(permit, laws, |law| law.friction) * repulsion.most(-repulsion);
+    let (zero, one) = (L::splat(permit, 0.0), L::splat(permit, 1.0));
     // No force at all gives 0/0 or a huge number: both are no sliding.
     let share = limit / trial.dot(trial).sqrt();
     let force = trial * share.least(one);
     let softness = zero.if_less(stiffness, one / stiffness, zero);
     let slid = -((force + dashpot) * softness);
     let stretch = Vector::if_less(share, one, slid, now);
-    let none = Vector::zero();
+    let none = Vector::zero(permit);
     let touching = |v| Vector::if_less(pairs.gap, zero, v, none);
     (touching(force), touching(stretch))
 }
@@ -366,9 +368,10 @@ fn tangential<L: Lane, N: NormalContact>(
 /// The torque that would stop the expected relative rolling in this step, at most `limit` (N m).
 #[inline(always)]
 fn rolling<L: Lane>(limit: L, pairs: &Geometry<L>) -> Vector<L> {
+    let permit = pairs.gap.permit();
     let (spin, normal) = (pairs.expected_spin, pairs.normal);
     let rolling = spin - normal * spin.dot(normal);
-    let stopping = -(rolling * (pairs.rolling_inertia / L::splat(pairs.time_step)));
+    let stopping = -(rolling * (pairs.rolling_inertia / L::splat(permit, pairs.time_step)));
     let share = limit / stopping.dot(stopping).sqrt();
-    stopping * share.least(L::splat(1.0))
+    stopping * share.least(L::splat(permit, 1.0))
 }

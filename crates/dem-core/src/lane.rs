@@ -1,7 +1,8 @@
 //! Numbers that may be several at once.
 //!
 //! The kernels of the core are written once, over a [`Lane`]: `f64` is one number, [`Four`] are four
-//! side by side. Both do the same operations in the same order, so they give the same bits.
+//! side by side, and [`crate::avx::Avx`] are four in one register of a machine that has such. All do the same operations in the same order, so
+//! they give the same bits.
 
 use std::ops::{Add, AddAssign, Div, IndexMut, Mul, Neg, Sub};
 
@@ -20,6 +21,12 @@ pub trait Lane:
     /// How many numbers there are.
     const WIDTH: usize;
 
+    /// What it takes to make numbers: a proof that this machine has the registers for them.
+    type Permit: Copy + Send + Sync;
+
+    /// What these numbers were made with.
+    fn permit(self) -> Self::Permit;
+
     /// Something of each.
     type Each<T>: IndexMut<usize, Output = T>;
 
@@ -27,13 +34,13 @@ pub trait Lane:
     fn each<T>(make: impl FnMut(usize) -> T) -> Self::Each<T>;
 
     /// Reads a number out of each.
-    fn pack<T>(from: &Self::Each<T>, read: impl Fn(&T) -> f64) -> Self;
+    fn pack<T>(permit: Self::Permit, from: &Self::Each<T>, read: impl Fn(&T) -> f64) -> Self;
 
     /// The numbers.
     fn unpack(self) -> Self::Each<f64>;
 
     /// The same number in each lane.
-    fn splat(value: f64) -> Self;
+    fn splat(permit: Self::Permit, value: f64) -> Self;
 
     /// Square root.
     #[must_use]
@@ -58,6 +65,11 @@ pub trait Lane:
 impl Lane for f64 {
     const WIDTH: usize = 1;
 
+    type Permit = ();
+
+    #[inline(always)]
+    fn permit(self) {}
+
     type Each<T> = [T; 1];
 
     #[inline(always)]
@@ -66,7 +78,7 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    fn pack<T>(from: &[T; 1], read: impl Fn(&T) -> f64) -> f64 {
+    fn pack<T>((): (), from: &[T; 1], read: impl Fn(&T) -> f64) -> f64 {
         read(&from[0])
     }
 
@@ -76,7 +88,7 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    fn splat(value: f64) -> f64 {
+    fn splat((): (), value: f64) -> f64 {
         value
     }
 
@@ -137,6 +149,11 @@ impl Neg for Four {
 impl Lane for Four {
     const WIDTH: usize = 4;
 
+    type Permit = ();
+
+    #[inline(always)]
+    fn permit(self) {}
+
     type Each<T> = [T; 4];
 
     #[inline(always)]
@@ -146,7 +163,7 @@ impl Lane for Four {
     }
 
     #[inline(always)]
-    fn pack<T>(from: &[T; 4], read: impl Fn(&T) -> f64) -> Self {
+    fn pack<T>((): (), from: &[T; 4], read: impl Fn(&T) -> f64) -> Self {
         Self(f64x4::new([read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])]))
     }
 
@@ -156,7 +173,7 @@ impl Lane for Four {
     }
 
     #[inline(always)]
-    fn splat(value: f64) -> Self {
+    fn splat((): (), value: f64) -> Self {
         Self(f64x4::splat(value))
     }
 
@@ -201,18 +218,18 @@ impl<L: Lane> Vector<L> {
     /// The zero vector in each lane.
     #[must_use]
     #[inline(always)]
-    pub fn zero() -> Self {
-        let zero = L::splat(0.0);
+    pub fn zero(permit: L::Permit) -> Self {
+        let zero = L::splat(permit, 0.0);
         Self { x: zero, y: zero, z: zero }
     }
 
     /// Reads a vector out of each.
     #[inline(always)]
-    pub fn pack<T>(from: &L::Each<T>, read: impl Fn(&T) -> DVec3) -> Self {
+    pub fn pack<T>(permit: L::Permit, from: &L::Each<T>, read: impl Fn(&T) -> DVec3) -> Self {
         Self {
-            x: L::pack(from, |t| read(t).x),
-            y: L::pack(from, |t| read(t).y),
-            z: L::pack(from, |t| read(t).z),
+            x: L::pack(permit, from, |t| read(t).x),
+            y: L::pack(permit, from, |t| read(t).y),
+            z: L::pack(permit, from, |t| read(t).z),
         }
     }
 
@@ -300,25 +317,30 @@ impl<L: Lane> Mul<L> for Vector<L> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn four_do_what_one_does_to_the_bit() {
+    fn four_do_what_one_does<L: Lane<Each<f64> = [f64; 4]>>(permit: L::Permit) {
         let a = [1.5, -0.0, 2.0 / 3.0, 3e300];
         let b = [0.1, 0.5, 1.0, -7.0];
         let one = |f: fn(f64, f64) -> f64| [0, 1, 2, 3].map(|k| f(a[k], b[k]).to_bits());
-        let four = |f: fn(Four, Four) -> Four| {
-            f(Four::pack(&a, |v| *v), Four::pack(&b, |v| *v)).unpack().map(f64::to_bits)
-        };
+        let pack = |all: &[f64; 4]| L::pack(permit, all, |v| *v);
+        let four = |f: fn(L, L) -> L| f(pack(&a), pack(&b)).unpack().map(f64::to_bits);
         assert_eq!(one(|a, b| a * b + a / b - b), four(|a, b| a * b + a / b - b));
         assert_eq!(one(Lane::least), four(|a, b| a.least(b)));
         assert_eq!(one(|a, b| Lane::most(b, a)), four(|a, b| b.most(a)));
         assert_eq!(one(|a, b| Lane::sqrt(a * a + b)), four(|a, b| (a * a + b).sqrt()));
         assert_eq!(one(|a, b| a.if_less(b, -a, b)), four(|a, b| a.if_less(b, -a, b)));
+        assert!(pack(&a).any_less(pack(&b)) && !pack(&a).any_less(pack(&a)));
+        let (nan, two) = (L::splat(permit, f64::NAN), L::splat(permit, 2.0));
+        assert_eq!((nan.least(two).unpack(), nan.most(two).unpack()), ([2.0; 4], [2.0; 4]));
+        assert!(!nan.any_less(two));
     }
 
     #[test]
-    fn what_cannot_be_compared_is_the_other() {
-        let (nan, two) = (Four::splat(f64::NAN), Four::splat(2.0));
-        assert_eq!((nan.least(two), nan.most(two)), (two, two));
+    fn four_do_what_one_does_to_the_bit() {
+        four_do_what_one_does::<Four>(());
+        #[cfg(target_arch = "x86_64")]
+        if let Some(permit) = pulp::x86::V3::try_new() {
+            four_do_what_one_does::<crate::avx::Avx>(permit);
+        }
         assert_eq!((Lane::least(f64::NAN, 2.0), Lane::most(f64::NAN, 2.0)), (2.0, 2.0));
     }
 }

@@ -62,6 +62,8 @@ pub struct Pairs<'a, L: Lane> {
     /// Whether none of these pairs touch; else all of them do. Known where the kernel is compiled,
     /// so that what only a contact needs costs nothing in a pair that is apart.
     pub apart: bool,
+    /// What lanes of these pairs are made with.
+    pub permit: L::Permit,
     /// Where the pairs are and how they move.
     pub geometry: Geometry<L>,
 }
@@ -128,21 +130,21 @@ impl<L: Lane> Loads<L> {
     /// Nothing acts.
     #[must_use]
     #[inline(always)]
-    pub fn none() -> Self {
-        let zero = Vector::zero();
-        let tension = L::splat(0.0);
+    pub fn none(permit: L::Permit) -> Self {
+        let zero = Vector::zero(permit);
+        let tension = L::splat(permit, 0.0);
         Self { tension, shear: zero, couple: zero, rolling: zero, attention: 0 }
     }
 
     /// Puts single loads side by side.
     #[inline(always)]
-    pub fn pack(loads: &L::Each<Load>) -> Self {
+    pub fn pack(permit: L::Permit, loads: &L::Each<Load>) -> Self {
         let bits = (0..L::WIDTH).map(|k| u32::from(loads[k].attention) << k);
         Self {
-            tension: L::pack(loads, |l| l.tension),
-            shear: Vector::<L>::pack(loads, |l| l.shear),
-            couple: Vector::<L>::pack(loads, |l| l.couple),
-            rolling: Vector::<L>::pack(loads, |l| l.rolling),
+            tension: L::pack(permit, loads, |l| l.tension),
+            shear: Vector::<L>::pack(permit, loads, |l| l.shear),
+            couple: Vector::<L>::pack(permit, loads, |l| l.couple),
+            rolling: Vector::<L>::pack(permit, loads, |l| l.rolling),
             attention: bits.sum(),
         }
     }

@@ -5,6 +5,8 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+#[cfg(target_arch = "x86_64")]
+use crate::avx::Avx;
 use crate::chunk::{Chunk, List, Note, Roll, Sum};
 use crate::lane::{Four, Lane, Vector};
 use crate::lists::{Entry, PairList};
@@ -56,23 +58,26 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(crate) fn pairs<L: Lane, const ROLLS: bool>(
         &'a self,
+        permit: L::Permit,
         entries: L::Each<Entry>,
         apart: bool,
     ) -> Pairs<'a, L> {
         let places = |side: usize| L::each(|k| &self.places[entries[k][side] as usize]);
         let velocities = |side: usize| L::each(|k| &self.velocities[entries[k][side] as usize]);
         let (p, q) = (places(0), places(1));
-        let radii = [L::pack(&p, |p| p.r), L::pack(&q, |q| q.r)];
-        let line = Vector::<L>::pack(&q, |q| q.x) - Vector::<L>::pack(&p, |p| p.x);
+        let radii = [L::pack(permit, &p, |p| p.r), L::pack(permit, &q, |q| q.r)];
+        let line = Vector::<L>::pack(permit, &q, |q| q.x) - Vector::<L>::pack(permit, &p, |p| p.x);
         let distance = line.dot(line).sqrt();
         let gap = distance - (radii[0] + radii[1]);
         let (p, q) = (velocities(0), velocities(1));
-        let velocity = Vector::<L>::pack(&p, |p| p.v) - Vector::<L>::pack(&q, |q| q.v);
-        let (wi, wj) = (Vector::<L>::pack(&p, |p| p.w), Vector::<L>::pack(&q, |q| q.w));
-        let half = line + velocity * L::splat(self.lag);
-        let half_step_normal = half * (L::splat(1.0) / half.dot(half).sqrt());
+        let velocity =
+            Vector::<L>::pack(permit, &p, |p| p.v) - Vector::<L>::pack(permit, &q, |q| q.v);
+        let (wi, wj) =
+            (Vector::<L>::pack(permit, &p, |p| p.w), Vector::<L>::pack(permit, &q, |q| q.w));
+        let half = line + velocity * L::splat(permit, self.lag);
+        let half_step_normal = half * (L::splat(permit, 1.0) / half.dot(half).sqrt());
         // The contact lies in the middle of gap or overlap, so that li + lj is the distance.
-        let half_gap = L::splat(0.5) * gap;
+        let half_gap = L::splat(permit, 0.5) * gap;
         let levers = [radii[0] + half_gap, radii[1] + half_gap];
         let along = velocity.dot(half_step_normal);
         let turning = (wi * levers[0] + wj * levers[1]).cross(half_step_normal);
@@ -80,28 +85,29 @@ impl<'a> View<'a> {
         let mut geometry = Geometry {
             gap,
             radii,
-            normal: line * (L::splat(1.0) / distance),
+            normal: line * (L::splat(permit, 1.0) / distance),
             half_step_normal,
             separation_speed: -along,
             slip: velocity - half_step_normal * along + turning,
             spin,
-            expected_spin: Vector::zero(),
-            rolling_inertia: L::splat(0.0),
+            expected_spin: Vector::zero(permit),
+            rolling_inertia: L::splat(permit, 0.0),
             levers,
             time_step: self.time_step,
         };
         if ROLLS {
             let rolls = |side: usize| L::each(|k| &self.rolls[entries[k][side] as usize]);
             let (p, q) = (rolls(0), rolls(1));
-            geometry.expected_spin =
-                spin + (Vector::<L>::pack(&p, |p| p.spin) - Vector::<L>::pack(&q, |q| q.spin));
+            geometry.expected_spin = spin
+                + (Vector::<L>::pack(permit, &p, |p| p.spin)
+                    - Vector::<L>::pack(permit, &q, |q| q.spin));
             let brake = L::each(|k| {
                 let [a, b] = entries[k].map(|slot| slot as usize);
                 p[k].contacts / self.inertia(a) + q[k].contacts / self.inertia(b)
             });
-            geometry.rolling_inertia = L::splat(1.0) / L::pack(&brake, |b| *b);
+            geometry.rolling_inertia = L::splat(permit, 1.0) / L::pack(permit, &brake, |b| *b);
         }
-        Pairs { view: self, entries, apart, geometry }
+        Pairs { view: self, entries, apart, permit, geometry }
     }
 }
 
@@ -115,12 +121,31 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
     let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
     let out = Out { range, sums, rolls, notes, apart, overlap };
     // The widest registers that this machine has; the same operations, the same bits.
-    pulp::Arch::new().dispatch(Both::<'_, '_, T, ROLLS> { view, term, inside, across, out });
+    match pulp::Arch::new() {
+        #[cfg(target_arch = "x86_64")]
+        pulp::Arch::V3(permit) => permit.vectorize(Both::<'_, '_, T, Avx, ROLLS> {
+            permit,
+            view,
+            term,
+            inside,
+            across,
+            out,
+        }),
+        arch => arch.dispatch(Both::<'_, '_, T, Four, ROLLS> {
+            permit: (),
+            view,
+            term,
+            inside,
+            across,
+            out,
+        }),
+    }
     *pair_time += start.elapsed();
 }
 
 /// Both lists of a chunk.
-struct Both<'v, 'a, T: PairTerm, const ROLLS: bool> {
+struct Both<'v, 'a, T: PairTerm, L: Lane, const ROLLS: bool> {
+    permit: L::Permit,
     view: &'a View<'v>,
     term: &'a T,
     inside: &'a mut PairList<T::Column>,
@@ -128,13 +153,14 @@ struct Both<'v, 'a, T: PairTerm, const ROLLS: bool> {
     out: Out<'a>,
 }
 
-impl<T: PairTerm, const ROLLS: bool> pulp::NullaryFnOnce for Both<'_, '_, T, ROLLS> {
+impl<T: PairTerm, L: Lane, const ROLLS: bool> pulp::NullaryFnOnce for Both<'_, '_, T, L, ROLLS> {
     type Output = ();
 
     #[inline(always)]
     fn call(mut self) {
-        list::<T, ROLLS, true>(self.view, self.term, self.inside, &mut self.out);
-        list::<T, ROLLS, false>(self.view, self.term, self.across, &mut self.out);
+        let (permit, view, term) = (self.permit, self.view, self.term);
+        list::<T, L, ROLLS, true>(permit, view, term, self.inside, &mut self.out);
+        list::<T, L, ROLLS, false>(permit, view, term, self.across, &mut self.out);
     }
 }
 
@@ -153,7 +179,8 @@ struct Out<'a> {
 /// `INSIDE`: both particles are the chunk's own; else the load goes to one of them only, computed
 /// in the same orientation as the chunk of the other one does.
 #[inline(always)]
-fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
+fn list<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
+    permit: L::Permit,
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
@@ -165,12 +192,13 @@ fn list<T: PairTerm, const ROLLS: bool, const INSIDE: bool>(
     apart.clear();
     for start in (0..list.active.len()).step_by(TILE) {
         let count = pick(view, term, list, start, &mut touching, waiting, &mut apart);
-        waiting = fours::<T, ROLLS, INSIDE, false>(view, term, list, &touching[..count], out);
+        let acting = &touching[..count];
+        waiting = fours::<T, L, ROLLS, INSIDE, false>(permit, view, term, list, acting, out);
         // What makes no four waits for the next tile.
         touching.copy_within(count - waiting..count, 0);
     }
     singly::<T, ROLLS, INSIDE, false>(view, term, list, &touching[..waiting], out);
-    let waiting = fours::<T, ROLLS, INSIDE, true>(view, term, list, &apart, out);
+    let waiting = fours::<T, L, ROLLS, INSIDE, true>(permit, view, term, list, &apart, out);
     let rest = &apart[apart.len() - waiting..];
     singly::<T, ROLLS, INSIDE, true>(view, term, list, rest, out);
     *out.apart = apart;
@@ -207,7 +235,8 @@ fn pick<T: PairTerm>(
 
 /// Loads as many of the pairs as make fours; returns how many are left over at the end.
 #[inline(always)]
-fn fours<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+fn fours<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+    permit: L::Permit,
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
@@ -220,7 +249,7 @@ fn fours<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
     }
     let (fours, rest) = acting.as_chunks::<4>();
     for at in fours {
-        block::<T, Four, ROLLS, INSIDE, APART>(view, term, list, at, out);
+        block::<T, L, ROLLS, INSIDE, APART>(permit, view, term, list, at, out);
     }
     rest.len()
 }
@@ -234,19 +263,20 @@ fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>
     out: &mut Out<'_>,
 ) {
     for at in acting {
-        block::<T, f64, ROLLS, INSIDE, APART>(view, term, list, std::slice::from_ref(at), out);
+        block::<T, f64, ROLLS, INSIDE, APART>((), view, term, list, std::slice::from_ref(at), out);
     }
 }
 
 #[inline(always)]
 fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+    permit: L::Permit,
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
     at: &[u32],
     out: &mut Out<'_>,
 ) {
-    let pairs = view.pairs::<L, ROLLS>(L::each(|k| list.active[at[k] as usize]), APART);
+    let pairs = view.pairs::<L, ROLLS>(permit, L::each(|k| list.active[at[k] as usize]), APART);
     let loads = term.load_lanes(&pairs, &mut Picked { columns: &mut list.columns, at });
     let g = &pairs.geometry;
     let force = (g.normal * loads.tension + loads.shear).unpack();
@@ -273,7 +303,7 @@ fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APAR
         brake::<L>(&pairs, loads.rolling, out);
     }
     let smaller = g.radii[0].least(g.radii[1]);
-    if !APART && (L::splat(*out.overlap) * smaller).any_less(-g.gap) {
+    if !APART && (L::splat(permit, *out.overlap) * smaller).any_less(-g.gap) {
         let shares = (-g.gap / smaller).unpack();
         *out.overlap = (0..L::WIDTH).fold(*out.overlap, |most, k| most.max(shares[k]));
     }
@@ -352,7 +382,7 @@ mod tests {
             columns: &mut impl Columns<Self::Column>,
         ) -> Loads<L> {
             assert_eq!(L::WIDTH, 1, "four at a time was not asked for");
-            Loads::pack(&L::each(|k| self.0.load(&pairs.pair(k), columns.column(k))))
+            Loads::pack(pairs.permit, &L::each(|k| self.0.load(&pairs.pair(k), columns.column(k))))
         }
 
         fn live(&self, column: &Self::Column) -> bool {

@@ -49,7 +49,7 @@ pub trait PairTerm: Send + Sync {
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
-        Loads::pack(&L::each(|k| self.load(&pairs.pair(k), columns.column(k))))
+        Loads::pack(pairs.permit, &L::each(|k| self.load(&pairs.pair(k), columns.column(k))))
     }
 
     /// Whether the column must not be lost, whatever the gap.
@@ -214,7 +214,10 @@ impl<T: PairTerm> PairTerm for Option<T> {
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
-        self.as_ref().map_or_else(Loads::none, |term| term.load_lanes(pairs, columns))
+        match self {
+            Some(term) => term.load_lanes(pairs, columns),
+            None => Loads::none(pairs.permit),
+        }
     }
 
     #[inline(always)]

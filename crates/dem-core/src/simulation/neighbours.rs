@@ -83,7 +83,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let stale = lists.outer + grown > lists.skin;
         let prune = stale || lists.inner + grown > lists.inner_skin;
         let wall_stale = lists.walls + (reach - lists.wall_reach).max(0.0) > lists.skin;
-        if !(stale || prune || wall_stale) {
+        let untidy = ARRANGE * lists.visited >= self.particles.len();
+        if !(stale || prune || wall_stale || untidy) {
             return;
         }
         let start = Instant::now();
@@ -96,7 +97,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         if wall_stale {
             self.find_walls(reach);
         }
-        if prune && ARRANGE * self.lists.visited >= self.particles.len() {
+        if untidy {
             self.arrange();
         }
         self.profile.neighbours += start.elapsed();

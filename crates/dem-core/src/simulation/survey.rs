@@ -63,9 +63,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 
     fn pair(&self, view: &View<'_>, entry: crate::lists::Entry) -> Pair {
         if self.rolls.is_empty() {
-            view.pairs::<f64, false>([entry], false).pair(0)
+            view.pairs::<f64, false>((), [entry], false).pair(0)
         } else {
-            view.pairs::<f64, true>([entry], false).pair(0)
+            view.pairs::<f64, true>((), [entry], false).pair(0)
         }
     }
 

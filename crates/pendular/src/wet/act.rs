@@ -70,32 +70,32 @@ pub(super) struct Pulls<L> {
 
 impl<L: Lane> Pulls<L> {
     #[inline(always)]
-    pub(super) fn pack<P: Borrow<Pull>>(pulls: &L::Each<P>) -> Self {
+    pub(super) fn pack<P: Borrow<Pull>>(permit: L::Permit, pulls: &L::Each<P>) -> Self {
         Self {
-            tension: L::pack(pulls, |p| p.borrow().tension),
-            drag: L::pack(pulls, |p| p.borrow().drag),
-            slip: L::pack(pulls, |p| p.borrow().resistance.slip),
-            coupling: L::pack(pulls, |p| p.borrow().resistance.coupling),
-            rolling: L::pack(pulls, |p| p.borrow().resistance.rolling),
+            tension: L::pack(permit, pulls, |p| p.borrow().tension),
+            drag: L::pack(permit, pulls, |p| p.borrow().drag),
+            slip: L::pack(permit, pulls, |p| p.borrow().resistance.slip),
+            coupling: L::pack(permit, pulls, |p| p.borrow().resistance.coupling),
+            rolling: L::pack(permit, pulls, |p| p.borrow().resistance.rolling),
         }
     }
 
     /// Puts single bridges side by side.
     #[inline(always)]
-    pub(super) fn side_by_side(one: &L::Each<Pulls<f64>>) -> Self {
+    pub(super) fn side_by_side(permit: L::Permit, one: &L::Each<Pulls<f64>>) -> Self {
         Self {
-            tension: L::pack(one, |p| p.tension),
-            drag: L::pack(one, |p| p.drag),
-            slip: L::pack(one, |p| p.slip),
-            coupling: L::pack(one, |p| p.coupling),
-            rolling: L::pack(one, |p| p.rolling),
+            tension: L::pack(permit, one, |p| p.tension),
+            drag: L::pack(permit, one, |p| p.drag),
+            slip: L::pack(permit, one, |p| p.slip),
+            coupling: L::pack(permit, one, |p| p.coupling),
+            rolling: L::pack(permit, one, |p| p.rolling),
         }
     }
 
     /// The same with drags that have faded in overlap.
     #[inline(always)]
     pub(super) fn faded<P: Borrow<Pull>>(pulls: &L::Each<P>, exponent: L) -> Self {
-        let all = Self::pack(pulls);
+        let all = Self::pack(exponent.permit(), pulls);
         let weight = fade(exponent);
         Self {
             tension: all.tension,
@@ -112,10 +112,12 @@ impl<L: Lane> Pulls<L> {
         let mut loads = Loads {
             tension: self.tension + self.drag * pairs.separation_speed,
             shear: -(pairs.slip * self.slip),
-            ..Loads::none()
+            ..Loads::none(pairs.gap.permit())
         };
         let (coupling, rolling) = (self.coupling, self.rolling);
-        if L::splat(0.0).any_less(coupling.most(-coupling) + rolling.most(-rolling)) {
+        if L::splat(pairs.gap.permit(), 0.0)
+            .any_less(coupling.most(-coupling) + rolling.most(-rolling))
+        {
             let reduced = reduced_radius(pairs.radii);
             let turning = pairs.spin.cross(pairs.half_step_normal) * reduced;
             loads.shear = loads.shear - turning * coupling;
@@ -132,11 +134,13 @@ const SERIES: f64 = -1.4;
 /// exp of the exponents, 1 to the bit at 0.
 #[inline(always)]
 fn fade<L: Lane>(exponent: L) -> L {
+    let permit = exponent.permit();
     let mut weight = series(exponent);
-    if exponent.any_less(L::splat(SERIES)) {
+    if exponent.any_less(L::splat(permit, SERIES)) {
         let exact = exponent.unpack();
         let exact = L::each(|k| if exact[k] < SERIES { exact[k].exp() } else { 0.0 });
-        weight = exponent.if_less(L::splat(SERIES), L::pack(&exact, |e| *e), weight);
+        weight =
+            exponent.if_less(L::splat(permit, SERIES), L::pack(permit, &exact, |e| *e), weight);
     }
     weight
 }
@@ -160,12 +164,13 @@ fn series<L: Lane>(x: L) -> L {
         0.5,
         1.0,
     ];
-    let x = x * L::splat(0.25);
-    let mut sum = L::splat(TERMS[0]);
+    let permit = x.permit();
+    let x = x * L::splat(permit, 0.25);
+    let mut sum = L::splat(permit, TERMS[0]);
     for &term in &TERMS[1..] {
-        sum = sum * x + L::splat(term);
+        sum = sum * x + L::splat(permit, term);
     }
-    let root = sum * x + L::splat(1.0);
+    let root = sum * x + L::splat(permit, 1.0);
     let square = root * root;
     square * square
 }
@@ -174,7 +179,7 @@ fn series<L: Lane>(x: L) -> L {
 #[inline(always)]
 fn reduced_radius<L: Lane>([first, second]: [L; 2]) -> L {
     let both = first * second / (first + second);
-    second.if_less(L::splat(f64::INFINITY), both, first)
+    second.if_less(L::splat(second.permit(), f64::INFINITY), both, first)
 }
 
 #[cfg(test)]
@@ -187,7 +192,7 @@ mod tests {
         for k in 0..4000 {
             let exponent = -1e-3 * f64::from(k);
             let four = [exponent, 0.0, f64::NEG_INFINITY, -1.5];
-            let weights = fade(Four::pack(&four, |e| *e)).unpack();
+            let weights = fade(Four::pack((), &four, |e| *e)).unpack();
             assert!((weights[0] / exponent.exp() - 1.0).abs() < 1e-15, "{exponent}");
             assert_eq!(weights[0], fade(exponent));
             assert_eq!((weights[1], weights[2]), (1.0, 0.0));

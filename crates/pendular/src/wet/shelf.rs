@@ -105,8 +105,9 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             all &= pull.is_some();
             pull.unwrap_or(&Pull::NONE)
         });
-        let exponent = gap * L::pack(&pulls, |pull| pull.fade);
-        (all && !L::splat(0.0).any_less(exponent)).then(|| Pulls::faded(&pulls, exponent))
+        let exponent = gap * L::pack(gap.permit(), &pulls, |pull| pull.fade);
+        (all && !L::splat(gap.permit(), 0.0).any_less(exponent))
+            .then(|| Pulls::faded(&pulls, exponent))
     }
 
     #[inline(always)]
@@ -120,7 +121,7 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             }
             pulls[k] = Pull::at(&far.curves, gaps[k]);
         }
-        Some(Pulls::pack(&pulls))
+        Some(Pulls::pack(gap.permit(), &pulls))
     }
 
     /// The forces of one pair; `None` without a bridge or beyond its static rupture distance.
@@ -133,13 +134,13 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             }
         }
         let far = self.far.get(seat)?;
-        (gap <= far.rupture).then(|| Pulls::pack(&[Pull::at(&far.curves, gap)]))
+        (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
     /// The forces of one pair by the curves at whatever gap; `None` without a bridge.
     pub(super) fn beyond(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
         let far = self.far.get(hold.seat as usize)?;
-        Some(Pulls::pack(&[Pull::at(&far.curves, gap)]))
+        Some(Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
     /// Static rupture distance, m.

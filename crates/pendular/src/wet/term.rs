@@ -163,7 +163,7 @@ where
             attention |= u32::from(pull.is_none()) << k;
             pulls[k] = pull.unwrap_or_default();
         }
-        Loads { attention, ..Pulls::<L>::side_by_side(&pulls).act(&pairs.geometry) }
+        Loads { attention, ..Pulls::<L>::side_by_side(pairs.permit, &pulls).act(&pairs.geometry) }
     }
 
     /// What acts in a pair without bridge or beyond its static rupture distance; `None` if a bridge
