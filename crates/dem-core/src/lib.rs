@@ -61,7 +61,7 @@ pub use pairs::{Columns, Geometry, Loads, Pairs};
 pub use particles::{Class, Particle, Particles};
 pub use profile::Profile;
 pub use simulation::{Departure, RollState, Settings, Simulation, Snapshot, WallMemory};
-pub use term::{PairTerm, TermError, Visit};
+pub use term::{EachColumn, PairTerm, TermError, Visit};
 
 /// The README's program runs as a test.
 #[cfg(doctest)]

@@ -6,6 +6,9 @@ use crate::{Class, Encounter, Load, Pair};
 /// Any error of a term.
 pub type TermError = Box<dyn std::error::Error + Send + Sync>;
 
+/// Calls what it is given with every column of a term.
+pub type EachColumn<'a, C> = dyn FnMut(&mut dyn FnMut(&mut C)) + 'a;
+
 /// A pair that asked for attention, or is about to end.
 #[derive(Debug, Clone, Copy)]
 pub struct Visit<C> {
@@ -67,7 +70,7 @@ pub trait PairTerm: Send + Sync {
     /// Brings what the term keeps of each pair outside the column into the order in which the pairs
     /// are read: `each` calls what it is given with all columns in that order, with both copies of a
     /// pair that stands in two lists. Called now and then; changes nothing but the speed.
-    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+    fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         let _ = each;
     }
 
@@ -163,7 +166,7 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         Ok(())
     }
 
-    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+    fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         self.0.arrange(&mut |see| each(&mut |column| see(&mut column.0)));
         self.1.arrange(&mut |see| each(&mut |column| see(&mut column.1)));
     }
@@ -229,7 +232,7 @@ impl<T: PairTerm> PairTerm for Option<T> {
         self.as_mut().map_or(Ok(()), |term| term.settle(visits))
     }
 
-    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Self::Column))) {
+    fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         if let Some(term) = self {
             term.arrange(each);
         }

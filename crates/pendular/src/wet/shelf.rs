@@ -2,7 +2,7 @@
 //! goes through, and in their order.
 
 use pendular_capillary::ForceCurve;
-use pendular_dem_core::{Columns, Lane, Pairs};
+use pendular_dem_core::{Columns, EachColumn, Lane, Pairs};
 use pendular_lubrication::{NormalCurve, TangentialCurve};
 
 use super::act::{Pull, Pulls};
@@ -150,11 +150,7 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
 
     /// Gives out all seats anew, in the order in which `each` goes through the pairs; returns the
     /// new seats by bridge.
-    pub(super) fn arrange(
-        &mut self,
-        bridges: usize,
-        each: &mut dyn FnMut(&mut dyn FnMut(&mut Hold)),
-    ) -> Vec<u32> {
+    pub(super) fn arrange(&mut self, bridges: usize, each: &mut EachColumn<'_, Hold>) -> Vec<u32> {
         let mut seats = vec![DRY; bridges];
         let mut order = Vec::with_capacity(self.far.len());
         each(&mut |hold| {

@@ -2,8 +2,8 @@
 
 use pendular_capillary::CapillaryLaw;
 use pendular_dem_core::{
-    Class, Columns, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs, StabilityLoad,
-    TermError, Visit,
+    Class, Columns, EachColumn, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs,
+    StabilityLoad, TermError, Visit,
 };
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
 use pendular_pair::{Bridge, Mate, OutOfRange};
@@ -111,7 +111,7 @@ where
         Ok(())
     }
 
-    fn arrange(&mut self, each: &mut dyn FnMut(&mut dyn FnMut(&mut Hold))) {
+    fn arrange(&mut self, each: &mut EachColumn<'_, Hold>) {
         let seats = self.shelf.arrange(self.live.len(), each);
         for (seated, seat) in self.live.iter_mut().zip(seats) {
             if let Some(seated) = seated {
