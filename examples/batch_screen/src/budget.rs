@@ -77,21 +77,20 @@ fn rows(budget: &Budget, capillary_loss: f64) -> Vec<Row> {
     Acting::ALL.iter().map(row).collect()
 }
 
-/// The budget for `summary.json`.
+/// The budget for `summary.json`, one object a force.
 pub(crate) fn document(budget: &Budget, capillary_loss: f64) -> serde_json::Value {
-    let rows = rows(budget, capillary_loss).into_iter().map(|row| {
-        let verdict = row.verdict();
+    let percent = |share: f64| (1e4 * share).round() / 1e2;
+    let rows = rows(budget, capillary_loss).into_iter().filter(|row| row.seen > 0).map(|row| {
         json!({
             "force": row.acting.name(),
-            "share_of_impulse": row.impulse,
-            "of_that_with_walls": row.walls,
-            "share_of_dissipation": row.energy,
+            "verdict": row.verdict(),
+            "impulse_percent": percent(row.impulse),
+            "with_walls_percent": percent(row.walls),
+            "dissipated_percent": percent(row.energy),
             "dissipated_J": row.joules,
-            "pairs_seen": row.seen,
-            "verdict": verdict,
         })
     });
-    json!({ "looks": budget.looks(), "negligible_below": NEGLIGIBLE, "forces": rows.collect::<Vec<_>>() })
+    rows.collect()
 }
 
 /// The budget for people; nothing before the first look.

@@ -184,7 +184,7 @@ pub(crate) fn summary(
         "liquid_imbalance": tally.imbalance,
         "largest_overlap": outcome.largest_overlap,
         "least_limit_s": outcome.limit.is_finite().then_some(outcome.limit),
-        "physics_budget": budget::document(&outcome.budget, tally.capillary_loss),
+        "budget": budget::document(&outcome.budget, tally.capillary_loss),
         "wall_time_s": outcome.wall_time.as_secs_f64(),
         "time_split_s": {
             "neighbours": profile.neighbours.as_secs_f64(),

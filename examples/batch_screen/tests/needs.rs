@@ -1,0 +1,113 @@
+//! What a scene needs: the table of limits, laws left open, proposals.
+
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_batch_screen"))
+        .current_dir(folder)
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The demo with 40 spheres that start in the air.
+fn small() -> String {
+    let demo = text(&run(Path::new("."), &["show", "demo"]).stdout);
+    let packing = demo.find("[packing]").unwrap();
+    let screen = demo.find("[screen]").unwrap();
+    let random = "[packing]\nfrom = \"random\"\nsolid_fraction = 0.2\nclearance_mm = 2\n\n";
+    format!("{}{random}{}", &demo[..packing], &demo[screen..])
+        .replace("count = 267", "count = 28")
+        .replace("count = 99", "count = 8")
+        .replace("count = 34", "count = 4")
+        .replace("diameter_mm = 80 ", "diameter_mm = 40 ")
+        .replace("time = 2.0", "time = 0.08")
+}
+
+#[test]
+fn a_check_tells_stability_from_accuracy_and_who_sets_each_limit() {
+    let said = text(&run(Path::new("."), &["check", "e18-02"]).stdout);
+    let row = |term: &str| {
+        let line = said.lines().find(|line| line.trim_start().starts_with(term));
+        line.unwrap_or_else(|| panic!("no row {term} in\n{said}")).to_owned()
+    };
+    let springs = row("contact springs and dashpots");
+    assert!(springs.contains("stability") && springs.contains("5 mm"), "{springs}");
+    assert!(row("viscous drag").contains("stability"));
+    for term in ["contact duration", "travel in the capillary range", "bridge stiffness"] {
+        assert!(row(term).contains("accuracy"), "{term}");
+    }
+    assert!(row("travel of walls in it").contains("screen"));
+}
+
+#[test]
+fn a_step_above_the_limit_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = run(folder.path(), &["run", "demo", "--dt", "1e-3"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = text(&refused.stderr);
+    assert!(said.contains("contact springs and dashpots") && said.contains("5 mm"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
+}
+
+#[test]
+fn laws_left_open_are_decided_before_the_run_and_written_down() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = small()
+        .replace("capillary = \"tabulated\"", "capillary = \"auto\"")
+        .replace("tangential_drag = \"popov\"", "tangential_drag = \"auto\"")
+        .replace("dynamic_rupture = \"pitois\"", "dynamic_rupture = \"auto\"");
+    fs::write(folder.path().join("open.toml"), open).unwrap();
+    let done = run(folder.path(), &["run", "open.toml", "--out", "one"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains("decided"), "{}", text(&done.stdout));
+    let summary = fs::read_to_string(folder.path().join("one/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let decided = summary["decided"].as_object().unwrap();
+    let keys: Vec<&str> = decided.keys().map(String::as_str).collect();
+    assert_eq!(keys, ["capillary", "dynamic_rupture", "tangential_drag"]);
+    // The cheaper closed forms are off by more than 5 % somewhere among these bridges.
+    assert_eq!(decided["capillary"], "tabulated");
+    let budget = summary["budget"].as_array().unwrap();
+    let share = |force: &str| {
+        budget
+            .iter()
+            .find(|row| row["force"] == force)
+            .map(|row| row["impulse_percent"].as_f64().unwrap())
+    };
+    let shares = ["normal contact", "tangential contact", "rolling friction", "capillary force"];
+    let known: f64 = shares.iter().filter_map(|force| share(force)).sum();
+    let drags: f64 = ["viscous normal", "viscous tangential"].iter().filter_map(|f| share(f)).sum();
+    assert!((known + drags - 100.0).abs() < 0.05, "{known} {drags}");
+    assert!(share("normal contact").unwrap() > share("capillary force").unwrap());
+}
+
+#[test]
+fn needs_proposes_with_evidence() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let done = run(folder.path(), &["needs", "small.toml", "--tolerance", "0.5", "--time", "0.05"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let said = text(&done.stdout);
+    assert!(said.contains("differ by chance alone"), "{said}");
+    // With so wide a tolerance every force is small, and a longer step is always tried.
+    for change in ["normal_drag = \"none\"", "rolling_friction = 0", "capillary = ", "time_step = "]
+    {
+        assert!(said.contains(change), "{change} in\n{said}");
+    }
+    assert!(
+        said.contains("proposed changes") || said.contains("nothing can be left out"),
+        "{said}"
+    );
+    let bad = run(folder.path(), &["needs", "small.toml", "--tolerance", "-1"]);
+    assert_eq!(bad.status.code(), Some(2));
+    assert!(text(&bad.stderr).contains("tolerance"));
+}
