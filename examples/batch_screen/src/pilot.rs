@@ -4,6 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use cpu_time::ProcessTime;
+
 use crate::build::{self, Source};
 use crate::error::RunError;
 use crate::progress::{Progress, Style};
@@ -18,7 +20,7 @@ pub(crate) struct Pilot {
     pub(crate) retained: f64,
     /// Shares of all liquid: on walls, collected with the fines, in bridges.
     pub(crate) liquid: [f64; 3],
-    /// Wall time of the steps, s.
+    /// Processor time of the run, s: what other programs do meanwhile does not count.
     pub(crate) seconds: f64,
     pub(crate) outcome: Outcome,
 }
@@ -47,11 +49,13 @@ pub(crate) fn fly(scene: &Scene, source: &Source<'_>) -> Result<Pilot, RunError>
         decided: Vec::new(),
     };
     let derived = built.derived.clone();
+    let begun = ProcessTime::now();
     let outcome = run::run(scene, built, &job, None, &Progress::new(scene.time, Style::Quiet))?;
+    let seconds = begun.elapsed().as_secs_f64();
     let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
     let (retained, _) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
     let tally = &outcome.tally;
     let share = |volume: f64| if derived.liquid > 0.0 { volume / derived.liquid } else { 0.0 };
     let liquid = [tally.parts.iter().sum(), tally.fines.iter().sum(), tally.bridges].map(share);
-    Ok(Pilot { retained, liquid, seconds: outcome.wall_time.as_secs_f64(), outcome })
+    Ok(Pilot { retained, liquid, seconds, outcome })
 }

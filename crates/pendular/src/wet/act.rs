@@ -51,10 +51,16 @@ impl Pull {
         curves: &(impl ForceCurve, impl NormalCurve, impl TangentialCurve),
     ) -> Self {
         let (normal, tangential) = (curves.1.fade(), curves.2.fade());
-        match normal.filter(|_| normal == tangential) {
-            Some(fade) => Self { fade, ..Self::at(curves, 0.0) },
-            None => Self::UNKNOWN,
-        }
+        let at = Self::at(curves, 0.0);
+        // What is nothing at contact and fades is nothing in overlap: the other one decides.
+        let fade = if at.drag == 0.0 && normal.is_some() {
+            tangential
+        } else if at.resistance == Resistance::default() && tangential.is_some() {
+            normal
+        } else {
+            normal.filter(|_| normal == tangential)
+        };
+        fade.map_or(Self::UNKNOWN, |fade| Self { fade, ..at })
     }
 }
 
