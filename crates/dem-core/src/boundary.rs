@@ -25,6 +25,12 @@ pub trait Boundary: Send + Sync {
     /// The caller's index of a part's material.
     fn material(&self, part: u32) -> u8;
 
+    /// One more than the largest material index of any part, so that a term without a law for it
+    /// is refused at set-up; 0, the default, leaves that unchecked.
+    fn materials(&self) -> usize {
+        0
+    }
+
     /// Whether a part is there at the time of the last [`Boundary::move_to`].
     fn is_present(&self, part: u32) -> bool;
 

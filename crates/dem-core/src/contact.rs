@@ -268,6 +268,10 @@ where
         self.rolls
     }
 
+    fn wall_materials(&self) -> Option<usize> {
+        Some(self.materials)
+    }
+
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
         classes.iter().enumerate().map(|(i, class)| self.strongest(i, class.radius())).collect()
     }

@@ -78,6 +78,14 @@ pub enum SimulationError {
         /// What limits it: springs and dashpots of the contact, or viscous drag.
         term: &'static str,
     },
+    /// A wall part has a material that a term has no law for.
+    #[error("a wall part has material {material}, but the term knows {known} wall materials")]
+    WallMaterial {
+        /// The material's index.
+        material: usize,
+        /// How many the term knows.
+        known: usize,
+    },
     /// Bodies overlap too much at the start.
     #[error(
         "particle {first} overlaps {second:?} by {overlap:.3e} m at the start, more than {allowed:.3e} m"

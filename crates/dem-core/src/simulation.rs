@@ -11,6 +11,7 @@ use crate::particles::Particles;
 use crate::pass::{self, View};
 use crate::{Boundary, PairTerm, Profile, SimulationError, Visit, wall_pass};
 
+mod deepest;
 mod leaving;
 mod neighbours;
 mod settings;
@@ -18,7 +19,7 @@ mod snapshot;
 mod survey;
 
 pub use settings::Settings;
-use settings::{check, threads};
+use settings::{check, check_walls, threads};
 pub use snapshot::{RollState, Snapshot, WallMemory};
 
 /// Steps between looks for particles that left the scene or walls that were taken away.
@@ -89,6 +90,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         settings: Settings,
     ) -> Result<Self, SimulationError> {
         let limit = check(&particles, &term, &settings)?;
+        check_walls(&term, &boundary)?;
         let lists = neighbours::State::new(&particles, &settings);
         let start = Roll { spin: DVec3::ZERO, contacts: 1.0 };
         let rolls = vec![start; if term.rolls() { particles.len() } else { 0 }];

@@ -84,6 +84,11 @@ pub trait PairTerm: Send + Sync {
         false
     }
 
+    /// How many wall materials the term has laws for; `None` for any number.
+    fn wall_materials(&self) -> Option<usize> {
+        None
+    }
+
     /// The stiffest and most viscous pair that each class can be part of.
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load>;
 
@@ -180,6 +185,11 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.rolls() || self.1.rolls()
     }
 
+    fn wall_materials(&self) -> Option<usize> {
+        let both = [self.0.wall_materials(), self.1.wall_materials()];
+        both.into_iter().flatten().min()
+    }
+
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
         let (a, b) = (self.0.stability(classes), self.1.stability(classes));
         a.into_iter().zip(b).map(|(a, b)| a + b).collect()
@@ -246,6 +256,10 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
     fn rolls(&self) -> bool {
         self.as_ref().is_some_and(T::rolls)
+    }
+
+    fn wall_materials(&self) -> Option<usize> {
+        self.as_ref().and_then(T::wall_materials)
     }
 
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {

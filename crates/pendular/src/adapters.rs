@@ -30,6 +30,11 @@ impl Boundary for MeshWalls {
         self.0.parts()[part as usize].material
     }
 
+    fn materials(&self) -> usize {
+        let parts = self.0.parts().iter();
+        parts.map(|part| usize::from(part.material) + 1).max().unwrap_or(0)
+    }
+
     #[inline]
     fn is_present(&self, part: u32) -> bool {
         self.0.is_present(part)

@@ -1,28 +1,22 @@
 //! Values of a scene that no type can rule out.
 
-use std::path::Path;
-
 use pendular::capillary::AnyCapillary;
 use pendular::lubrication::{NormalModel, TangentialModel};
 use pendular::transfer::AnyRupture;
 
 use crate::auto::{AUTO, NONE};
 use crate::error::SceneError;
+use crate::place::Place;
 use crate::scene::{LiquidSpec, Packing, Scene};
 
 /// Names one wrong value.
 struct Check<'a> {
-    file: &'a Path,
+    scene: &'a Scene,
 }
 
 impl Check<'_> {
     fn fail(&self, key: &str, value: impl ToString, allowed: impl ToString) -> SceneError {
-        SceneError::Value {
-            file: self.file.to_path_buf(),
-            key: key.to_owned(),
-            value: value.to_string(),
-            allowed: allowed.to_string(),
-        }
+        self.scene.fail(key, value, allowed)
     }
 
     fn positive(&self, key: &str, value: f64) -> Result<(), SceneError> {
@@ -59,9 +53,9 @@ impl Check<'_> {
     }
 }
 
-/// Checks all values of a scene; the first wrong one is reported with its key and what is allowed.
-pub(crate) fn check(scene: &Scene, file: &Path) -> Result<(), SceneError> {
-    let check = Check { file };
+/// Checks all values of a scene; the first wrong one is reported with its place and what is allowed.
+pub(crate) fn check(scene: &Scene) -> Result<(), SceneError> {
+    let check = Check { scene };
     check.positive("time", scene.time)?;
     check.positive("output_interval", scene.output_interval)?;
     if let Some(step) = scene.time_step {
@@ -70,15 +64,22 @@ pub(crate) fn check(scene: &Scene, file: &Path) -> Result<(), SceneError> {
     for (axis, g) in scene.gravity.iter().enumerate() {
         check.within(&format!("gravity[{axis}]"), *g, -1e3, 1e3)?;
     }
+    check.within("guard.overlap_share", scene.guard.overlap_share, 1e-3, 1.0)?;
+    scene.guard.speed.map_or(Ok(()), |speed| check.positive("guard.speed", speed))?;
     materials(scene, &check)?;
     classes(scene, &check)?;
     screen(scene, &check)?;
     scene.liquid.as_ref().map_or(Ok(()), |liquid| wet(liquid, &check))
 }
 
-/// Checks an interval of time, s.
-pub(crate) fn interval(file: &Path, key: &str, value: f64) -> Result<(), SceneError> {
-    Check { file }.positive(key, value)
+/// Checks an interval of time of the command line, s.
+pub(crate) fn interval(option: &str, value: f64) -> Result<(), SceneError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    let (place, key) = (Place::option(option), option.trim_start_matches('-').to_owned());
+    let allowed = "a finite number above 0".to_owned();
+    Err(SceneError::Value { place, key, value: value.to_string(), allowed })
 }
 
 fn materials(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {

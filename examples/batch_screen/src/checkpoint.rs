@@ -8,11 +8,13 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use pendular::dem::{DVec3, Particle, Partner, Simulation, Snapshot, Touch, WallMemory};
 use pendular::{Budget, Counts, Ledger, LedgerParts, LiveState, MeshWalls, WetState};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::build::WetTerm;
 use crate::makeup::{Makeup, StoredPair};
 use crate::screening::Screening;
+use crate::spent::Spent;
 use crate::tables::Start;
 use crate::tally::Gone;
 
@@ -48,6 +50,8 @@ pub(crate) struct Checkpoint {
     pub(crate) time: f64,
     pub(crate) time_step: f64,
     pub(crate) seed: u64,
+    /// Whether the time step may be above the stability limit.
+    pub(crate) allow_unstable: bool,
     /// Time between ParaView frames, s.
     pub(crate) vtk: Option<f64>,
     /// Class of each particle, by id.
@@ -68,6 +72,8 @@ pub(crate) struct Checkpoint {
     pub(crate) vtk_frames: u64,
     /// Wall time so far, s.
     pub(crate) elapsed: f64,
+    /// Where it went.
+    pub(crate) spent: Spent,
 }
 
 /// The simulation.
@@ -200,56 +206,65 @@ impl StoredWet {
 }
 
 impl Checkpoint {
-    /// Writes the checkpoint of a folder: beside its place first, then moved there, so that the
-    /// last whole one survives whatever happens.
+    /// Writes the checkpoint of a folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), CheckpointError> {
-        let path = folder.join(NAME);
-        let fail = |source| CheckpointError::Unwritable { path: path.clone(), source };
-        let other = |e: postcard::Error| std::io::Error::other(e.to_string());
-        let plain = postcard::to_allocvec(self).map_err(|e| fail(other(e)))?;
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-        encoder.write_all(&plain).map_err(fail)?;
-        let packed = encoder.finish().map_err(fail)?;
-        let write = || -> std::io::Result<()> {
-            let mut file = tempfile::NamedTempFile::new_in(folder)?;
-            file.write_all(MAGIC)?;
-            file.write_all(&VERSION.to_le_bytes())?;
-            file.write_all(&crc32fast::hash(&packed).to_le_bytes())?;
-            file.write_all(&packed)?;
-            file.as_file().sync_all()?;
-            file.persist(&path)?;
-            Ok(())
-        };
-        write().map_err(fail)
+        store(self, &folder.join(NAME))
     }
 
     /// Reads the checkpoint of a folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, CheckpointError> {
-        let path = folder.join(NAME);
-        let bytes = std::fs::read(&path)
-            .map_err(|source| CheckpointError::Unreadable { path: path.clone(), source })?;
-        let damaged = |message: String| CheckpointError::Damaged { path: path.clone(), message };
-        let (Some(magic), Some(rest)) = (bytes.get(..8), bytes.get(8..)) else {
-            return Err(CheckpointError::Foreign { path });
-        };
-        if magic != MAGIC {
-            return Err(CheckpointError::Foreign { path });
-        }
-        let number = |at: usize| {
-            let bytes = rest.get(at..at + 4).and_then(|four| four.try_into().ok());
-            bytes.map(u32::from_le_bytes).ok_or_else(|| damaged("it is cut short".into()))
-        };
-        let found = number(0)?;
-        if found != VERSION {
-            return Err(CheckpointError::Version { path, found });
-        }
-        let packed = &rest[8..];
-        if number(4)? != crc32fast::hash(packed) {
-            return Err(damaged("its checksum is wrong".into()));
-        }
-        let mut plain = Vec::new();
-        let inflated = ZlibDecoder::new(packed).read_to_end(&mut plain);
-        inflated.map_err(|e| damaged(e.to_string()))?;
-        postcard::from_bytes(&plain).map_err(|e| damaged(e.to_string()))
+        load(&folder.join(NAME))
     }
+}
+
+/// Writes a value beside its place first, then moves it there, so that the last whole one survives
+/// whatever happens.
+pub(crate) fn store<T: Serialize>(value: &T, path: &Path) -> Result<(), CheckpointError> {
+    let fail = |source| CheckpointError::Unwritable { path: path.to_path_buf(), source };
+    let other = |e: postcard::Error| std::io::Error::other(e.to_string());
+    let plain = postcard::to_allocvec(value).map_err(|e| fail(other(e)))?;
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(&plain).map_err(fail)?;
+    let packed = encoder.finish().map_err(fail)?;
+    let write = || -> std::io::Result<()> {
+        let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+        file.write_all(MAGIC)?;
+        file.write_all(&VERSION.to_le_bytes())?;
+        file.write_all(&crc32fast::hash(&packed).to_le_bytes())?;
+        file.write_all(&packed)?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().map_err(fail)
+}
+
+/// Reads what [`store`] wrote.
+pub(crate) fn load<T: DeserializeOwned>(path: &Path) -> Result<T, CheckpointError> {
+    let path = path.to_path_buf();
+    let bytes = std::fs::read(&path)
+        .map_err(|source| CheckpointError::Unreadable { path: path.clone(), source })?;
+    let damaged = |message: String| CheckpointError::Damaged { path: path.clone(), message };
+    let (Some(magic), Some(rest)) = (bytes.get(..8), bytes.get(8..)) else {
+        return Err(CheckpointError::Foreign { path });
+    };
+    if magic != MAGIC {
+        return Err(CheckpointError::Foreign { path });
+    }
+    let number = |at: usize| {
+        let bytes = rest.get(at..at + 4).and_then(|four| four.try_into().ok());
+        bytes.map(u32::from_le_bytes).ok_or_else(|| damaged("it is cut short".into()))
+    };
+    let found = number(0)?;
+    if found != VERSION {
+        return Err(CheckpointError::Version { path, found });
+    }
+    let packed = rest.get(8..).unwrap_or_default();
+    if number(4)? != crc32fast::hash(packed) {
+        return Err(damaged("its checksum is wrong".into()));
+    }
+    let mut plain = Vec::new();
+    let inflated = ZlibDecoder::new(packed).read_to_end(&mut plain);
+    inflated.map_err(|e| damaged(e.to_string()))?;
+    postcard::from_bytes(&plain).map_err(|e| damaged(e.to_string()))
 }

@@ -25,9 +25,11 @@ pub(crate) enum Command {
     },
     /// Writes the commented demo scene to a file, to start from.
     Sample {
-        /// The file; it must not exist.
-        #[arg(default_value = "scene.toml")]
-        file: PathBuf,
+        /// The file, which must not exist; `scene.toml` or `sweep.toml` where it is left out.
+        file: Option<PathBuf>,
+        /// Writes a commented sweep instead.
+        #[arg(long)]
+        sweep: bool,
     },
     /// Checks a scene and prints what follows from it, without running it.
     Check {
@@ -61,6 +63,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         how: How,
     },
+    /// Runs a scene many times with other values, into one table.
+    Sweep(SweepArgs),
     /// Makes report.html from the tables of a run, whole or not.
     Report {
         /// Folder of the run.
@@ -78,7 +82,7 @@ pub(crate) enum Command {
 }
 
 /// What a run takes.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct RunArgs {
     /// A scene file or the name of a built-in scene.
     #[arg(default_value = "demo")]
@@ -98,6 +102,13 @@ pub(crate) struct RunArgs {
     /// Seed of the packing, instead of the scene's.
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    /// Takes another value for a key of the scene, such as `liquid.moisture_percent=10` or
+    /// `classes[0].count=50`; may be given more than once.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Runs above the stability limit too, for studies of it.
+    #[arg(long)]
+    pub(crate) allow_unstable: bool,
     /// Writes ParaView files into the folder `paraview`, every S seconds of simulated time.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) vtk: Option<f64>,
@@ -105,8 +116,44 @@ pub(crate) struct RunArgs {
     pub(crate) how: How,
 }
 
+/// What a sweep takes.
+#[derive(Debug, Args)]
+pub(crate) struct SweepArgs {
+    /// The sweep file; `sample --sweep` writes one.
+    pub(crate) file: PathBuf,
+    /// Folder for the table and the runs; `out/NAME` where it is left out.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Folder of settled beds, to be used again; `beds` beside the runs where it is left out.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) beds: Option<PathBuf>,
+    /// Runs side by side; the cores are shared among them.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) jobs: usize,
+    /// Prints the commands for a cluster's job array, or one a line, instead of running.
+    #[arg(long, value_enum, conflicts_with_all = ["only", "gather"])]
+    pub(crate) emit: Option<Emit>,
+    /// Runs the N-th run only, from 1, and leaves the table alone.
+    #[arg(long, value_name = "N", conflicts_with = "gather")]
+    pub(crate) only: Option<usize>,
+    /// Runs nothing: makes the table of what there is.
+    #[arg(long)]
+    pub(crate) gather: bool,
+    #[command(flatten)]
+    pub(crate) how: How,
+}
+
+/// Commands to print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Emit {
+    /// A script for sbatch, with a job array.
+    Slurm,
+    /// A command a line.
+    List,
+}
+
 /// How a run is carried out.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub(crate) struct How {
     /// Threads; results do not depend on them. All cores where it is left out.
     #[arg(long, value_name = "N")]

@@ -11,7 +11,9 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use crate::build::{self, Built, Source};
 use crate::checkpoint::Checkpoint;
 use crate::cli::{How, RunArgs};
+use crate::document::{self, Set};
 use crate::error::{RunError, SceneError};
+use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::scene::Scene;
@@ -36,12 +38,16 @@ pub(crate) fn show(name: &str) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Writes the demo scene to a new file.
-pub(crate) fn sample(file: &Path) -> Result<(), RunError> {
-    let text = builtin::find("demo").unwrap_or_default();
-    let write = || fs::File::create_new(file)?.write_all(text.as_bytes());
-    write().map_err(|source| RunError::Write { path: file.to_path_buf(), source })?;
-    println!("wrote {0}; run it with: batch_screen run {0}", file.display());
+/// Writes the demo scene, or a sweep, to a new file.
+pub(crate) fn sample(file: Option<PathBuf>, sweep: bool) -> Result<(), RunError> {
+    let (text, name, verb) = match sweep {
+        true => (crate::sweep::SAMPLE, "sweep.toml", "sweep"),
+        false => (builtin::find("demo").unwrap_or_default(), "scene.toml", "run"),
+    };
+    let path = file.unwrap_or_else(|| PathBuf::from(name));
+    let write = || fs::File::create_new(&path)?.write_all(text.as_bytes());
+    write().map_err(|source| RunError::Write { path: path.clone(), source })?;
+    println!("wrote {0}; run it with: batch_screen {verb} {0}", path.display());
     Ok(())
 }
 
@@ -59,29 +65,42 @@ struct Loaded {
     name: String,
 }
 
-fn load(name: &str) -> Result<Loaded, SceneError> {
+/// Text of a scene, by file or built-in name.
+pub(crate) fn text(name: &str) -> Result<String, SceneError> {
     if let Some(text) = builtin::find(name) {
-        let scene = Scene::parse(text, Path::new(name))?;
-        let (text, base) = (text.to_owned(), PathBuf::new());
-        return Ok(Loaded { scene, text, base, name: name.to_owned() });
+        return Ok(text.to_owned());
     }
     let path = Path::new(name);
     if !path.exists() {
         return Err(unknown(name));
     }
-    let text = fs::read_to_string(path)
-        .map_err(|source| SceneError::Unreadable { file: path.to_path_buf(), source })?;
-    let scene = Scene::parse(&text, path)?;
+    let unreadable = |source| SceneError::Unreadable { file: path.to_path_buf(), source };
+    fs::read_to_string(path).map_err(unreadable)
+}
+
+fn load(name: &str, sets: &[Set]) -> Result<Loaded, SceneError> {
+    let (path, text) = (Path::new(name), text(name)?);
+    let mut origin = Origin::new(path, &text);
+    let text = document::with(&text, &mut origin, sets)?;
+    let scene = Scene::read(&text, origin)?;
+    if builtin::find(name).is_some() {
+        return Ok(Loaded { scene, text, base: PathBuf::new(), name: name.to_owned() });
+    }
     let base = path.parent().map(Path::to_path_buf).unwrap_or_default();
     let stem = path.file_stem().map_or_else(|| "run".into(), |s| s.to_string_lossy().into_owned());
     Ok(Loaded { scene, text, base, name: stem })
 }
 
+/// The spheres where they are placed before they settle: enough to check a scene.
+fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
+    let checkpoint_every = f64::INFINITY;
+    Source { base, beds: None, threads: 1, tell: false, stop, checkpoint_every }
+}
+
 /// Checks a scene and says what follows from it.
 pub(crate) fn check(name: &str) -> Result<(), RunError> {
-    let Loaded { scene, base, .. } = load(name)?;
-    let source = Source { base: &base, beds: None, threads: 1, tell: false };
-    let built = build::build(&scene, &source)?;
+    let Loaded { scene, base, .. } = load(name, &[])?;
+    let built = build::build(&scene, &unsettled(&base, &AtomicBool::new(false)))?;
     println!("{}", report::header(&scene, &built));
     print!("{}", limits::text(&limits::table(&scene, &built), built.settings.time_step));
     let limit = build::limit(&built);
@@ -103,7 +122,8 @@ fn within_limit(scene: &Scene, built: &Built) -> Result<(), SceneError> {
     }
     let (allowed, term) = (limit.time_step, limit.term);
     let class = scene.classes[limit.class].name.clone();
-    Err(SceneError::TimeStep { time_step, allowed, class, term })
+    let place = scene.origin.place("time_step");
+    Err(SceneError::TimeStep { place, time_step, allowed, class, term })
 }
 
 /// Proposes the smallest scene that gives the same result.
@@ -114,13 +134,13 @@ pub(crate) fn needs(
     beds: Option<&Path>,
     threads: Option<usize>,
 ) -> Result<(), RunError> {
-    let Loaded { mut scene, base, .. } = load(name)?;
-    let here = Path::new("command line");
-    crate::check::interval(here, "tolerance", tolerance)?;
-    crate::check::interval(here, "time", time)?;
+    let Loaded { mut scene, base, .. } = load(name, &[])?;
+    crate::check::interval("--tolerance", tolerance)?;
+    crate::check::interval("--time", time)?;
     let kept = Path::new("out").join("beds");
     let beds = Some(beds.unwrap_or(&kept));
-    let source = Source { base: &base, beds, threads: count_threads(threads)?, tell: true };
+    let (threads, stop) = (count_threads(threads)?, AtomicBool::new(false));
+    let source = Source { beds, threads, tell: true, ..unsettled(&base, &stop) };
     let decided = auto::decide(&scene, &source)?;
     auto::apply(&mut scene, &decided);
     needs::needs(scene, &source, time, tolerance, &|text| println!("{text}"))
@@ -128,29 +148,50 @@ pub(crate) fn needs(
 
 /// Runs a scene.
 pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
-    let Loaded { mut scene, text, base, name } = load(&args.scene)?;
+    run_until(args, stop_flag())
+}
+
+/// The scene that the command line asks for.
+fn asked(args: &RunArgs) -> Result<Loaded, SceneError> {
+    let sets: Vec<Set> = args.set.iter().map(|set| Set::parse(set)).collect::<Result<_, _>>()?;
+    let mut loaded = load(&args.scene, &sets)?;
+    let scene = &mut loaded.scene;
     scene.time = args.time.unwrap_or(scene.time);
     scene.time_step = args.dt.or(scene.time_step);
     scene.seed = args.seed.unwrap_or(scene.seed);
-    crate::check::check(&scene, Path::new("command line"))?;
-    if let Some(interval) = args.vtk {
-        crate::check::interval(Path::new("command line"), "vtk", interval)?;
+    let given = [("time", args.time.is_some()), ("time_step", args.dt.is_some())];
+    for ((key, _), option) in given.iter().zip(["--time", "--dt"]).filter(|(given, _)| given.1) {
+        scene.origin.give(key, Place::option(option));
     }
+    crate::check::check(scene)?;
+    args.vtk.map_or(Ok(()), |interval| crate::check::interval("--vtk", interval))?;
+    Ok(loaded)
+}
+
+/// Runs a scene until its end, or until `stop` is set.
+pub(crate) fn run_until(args: &RunArgs, stop: Arc<AtomicBool>) -> Result<(), RunError> {
+    let Loaded { mut scene, text, base, name } = asked(args)?;
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
     let threads = threads(&args.how)?;
     // Refused before the bed is settled, which can take minutes.
-    let loose = build::build(&scene, &Source { base: &base, beds: None, threads: 1, tell: false })?;
-    within_limit(&scene, &loose)?;
+    crate::check::interval("--checkpoint-every", args.how.checkpoint_every)?;
+    let loose = build::build(&scene, &unsettled(&base, &stop))?;
+    if !args.allow_unstable {
+        within_limit(&scene, &loose)?;
+    }
     let source = Source {
         base: &base,
         beds: Some(&beds),
         threads,
         tell: !(args.how.quiet || args.how.json),
+        stop: &stop,
+        checkpoint_every: args.how.checkpoint_every,
     };
     let decided = auto::decide(&scene, &source)?;
     auto::apply(&mut scene, &decided);
-    let built = build::build(&scene, &source)?;
+    let mut built = build::build(&scene, &source)?;
+    built.settings.allow_unstable = args.allow_unstable;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
         .map_err(|source| RunError::Write { path: base.clone(), source })?;
     let job = Job {
@@ -160,7 +201,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
         base,
         vtk: args.vtk,
         checkpoint_every: args.how.checkpoint_every,
-        stop: stop_flag(),
+        stop,
         decided,
     };
     finish(&scene, built, &job, None, &args.how)
@@ -168,6 +209,15 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
 
 /// Goes on with a run from its last checkpoint.
 pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
+    resume_until(folder, how, stop_flag())
+}
+
+/// Goes on with a run until its end, or until `stop` is set.
+pub(crate) fn resume_until(
+    folder: &Path,
+    how: &How,
+    stop: Arc<AtomicBool>,
+) -> Result<(), RunError> {
     let checkpoint = Checkpoint::read(folder)?;
     let mut scene = Scene::parse(&checkpoint.scene, Path::new(&checkpoint.source))?;
     scene.time = checkpoint.time;
@@ -175,7 +225,8 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
     scene.seed = checkpoint.seed;
     auto::apply(&mut scene, &checkpoint.decided);
     let class = checkpoint.class.clone();
-    let built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
+    let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
+    built.settings.allow_unstable = checkpoint.allow_unstable;
     if !(how.quiet || how.json) {
         println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
     }
@@ -186,7 +237,7 @@ pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
         base: checkpoint.base.clone(),
         vtk: checkpoint.vtk,
         checkpoint_every: how.checkpoint_every,
-        stop: stop_flag(),
+        stop,
         decided: checkpoint.decided.clone(),
     };
     finish(&scene, built, &job, Some(checkpoint), how)
@@ -199,7 +250,7 @@ fn finish(
     from: Option<Checkpoint>,
     how: &How,
 ) -> Result<(), RunError> {
-    crate::check::interval(Path::new("command line"), "checkpoint-every", how.checkpoint_every)?;
+    crate::check::interval("--checkpoint-every", how.checkpoint_every)?;
     let style = match (how.quiet, how.json) {
         (true, _) => Style::Quiet,
         (_, true) => Style::Json,
@@ -215,7 +266,12 @@ fn finish(
         say(&format!("  decided      {}", auto::text(&job.decided)));
     }
     let derived = built.derived.clone();
-    let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style))?;
+    let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style));
+    if let Err(RunError::Guard { .. }) = &outcome {
+        // The page shows how it came to that; the fault is what there is to say.
+        let _ = page::report(&job.out);
+    }
+    let outcome = outcome?;
     say(&report::table(scene, &derived, &outcome));
     let page = page::report(&job.out)?;
     say(&format!("results in {}, report in {}", job.out.display(), page.display()));
@@ -246,7 +302,7 @@ fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
         return Ok(threads);
     }
     Err(SceneError::Value {
-        file: PathBuf::from("command line"),
+        place: Place::option("--threads"),
         key: "threads".into(),
         value: threads.to_string(),
         allowed: format!("1 to {MOST_THREADS}"),
@@ -255,7 +311,7 @@ fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
 
 /// A flag that SIGINT and SIGTERM set, so that a run ends with a checkpoint. Where the system does
 /// not allow it, a signal ends the run at once, as it would have.
-fn stop_flag() -> Arc<AtomicBool> {
+pub(crate) fn stop_flag() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::place::Place;
+
 /// What is wrong with a scene.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum SceneError {
@@ -9,19 +11,28 @@ pub(crate) enum SceneError {
     Unreadable { file: PathBuf, source: std::io::Error },
     #[error("cannot write {}: {source}", file.display())]
     Unwritable { file: PathBuf, source: std::io::Error },
-    #[error("{}: key `{key}`: {message}", file.display())]
-    Syntax { file: PathBuf, key: String, message: String },
-    #[error("{}: key `{key}`: {value} is not allowed; allowed: {allowed}", file.display())]
-    Value { file: PathBuf, key: String, value: String, allowed: String },
+    #[error("{place}: key `{key}`: {message}")]
+    Syntax { place: Place, key: String, message: String },
+    #[error("{place}: key `{key}`: {value} is not allowed; allowed: {allowed}")]
+    Value { place: Place, key: String, value: String, allowed: String },
+    #[error("{place}: key `{key}`: {source}")]
+    At { place: Place, key: String, source: Box<SceneError> },
     #[error("no built-in scene and no file is called `{name}`; built in: {known}")]
     Unknown { name: String, known: String },
     #[error("{}, line {line}: {message}", file.display())]
     Csv { file: PathBuf, line: u64, message: String },
     #[error(
-        "time step {time_step:.3e} s is above the limit {allowed:.3e} s that class {class} sets \
-         through the {term}"
+        "{place}: key `time_step`: {time_step:.3e} s is above the limit {allowed:.3e} s that class \
+         {class} sets through the {term}; allowed: up to the limit, or --allow-unstable for studies"
     )]
-    TimeStep { time_step: f64, allowed: f64, class: String, term: &'static str },
+    TimeStep { place: Place, time_step: f64, allowed: f64, class: String, term: &'static str },
+    #[error(
+        "stopped as asked while the bed was settling, at t = {time:.4} s of it; the same command \
+         goes on from there"
+    )]
+    Settling { time: f64 },
+    #[error(transparent)]
+    Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error("the particles do not fit: {message}")]
     Packing { message: String },
     #[error("walls: {0}")]
@@ -59,6 +70,33 @@ pub(crate) enum RunError {
          with a smaller time step"
     )]
     Unstable { time: f64, time_step: f64, allowed: f64, class: String, term: &'static str },
-    #[error("the run stopped: {0}")]
-    Simulation(pendular::dem::SimulationError),
+    #[error("{failed} of {runs} runs failed; sweep.csv says why")]
+    Sweep { failed: usize, runs: usize },
+    #[error("stopped as asked with {waiting} runs to go; the same command goes on with them")]
+    SweepStopped { waiting: usize },
+    #[error(
+        "{} holds a run of another scene, seed or time: remove it, or choose another --out",
+        folder.display()
+    )]
+    OtherRun { folder: PathBuf },
+    #[error(
+        "the run stopped at t = {:.6} s: {}\n  what to do: {}\n  the tables in {} hold what was \
+         until then; the last checkpoint, of t = {saved:.6} s, is kept",
+        fault.time, fault.what, fault.advice, folder.display()
+    )]
+    Guard { fault: crate::guard::Fault, folder: PathBuf, saved: f64 },
+}
+
+impl RunError {
+    /// The program's exit code. 2: the input is wrong; 3: the run went wrong; 130: stopped by a
+    /// signal; 1: the rest.
+    pub(crate) fn code(&self) -> u8 {
+        match self {
+            Self::Scene(SceneError::Settling { .. }) => 130,
+            Self::Scene(_) => 2,
+            Self::Guard { .. } | Self::Unstable { .. } => 3,
+            Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
+            _ => 1,
+        }
+    }
 }

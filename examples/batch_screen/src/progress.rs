@@ -48,6 +48,12 @@ impl Progress {
         Self { style, bar, last: Cell::new((Instant::now(), 0, 0.0)) }
     }
 
+    /// Takes the speed from here on: what a run did before it was taken up again does not count.
+    pub(crate) fn begin(&self, steps: u64, time: f64) {
+        self.last.set((Instant::now(), steps, time));
+        self.bar.set_position((1e6 * time) as u64);
+    }
+
     /// Renews the line, not too often.
     pub(crate) fn step<T: Makeup>(
         &self,

@@ -8,10 +8,12 @@ use serde_json::json;
 use crate::budget;
 use crate::build::{Built, Derived};
 use crate::error::RunError;
+use crate::guard::Guard;
 use crate::run::Outcome;
 use crate::scene::{Scene, WireKind};
+use crate::screening::partition;
 use crate::tables::{groups, retained};
-use crate::tally::wall_speed;
+use crate::tally::{Tally, wall_speed};
 
 /// What the run is about to do, with the numbers that follow from the scene.
 pub(crate) fn header(scene: &Scene, built: &Built) -> String {
@@ -57,6 +59,12 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
             );
         }
     }
+    let guard = Guard::new(scene, &built.walls, &[]);
+    text += &format!(
+        "  guard        stops at an overlap of {} % of a radius or a speed of {:.2} m/s\n",
+        100.0 * scene.guard.overlap_share,
+        guard.speed()
+    );
     text += &format!("  time step    {:.3e} s", built.settings.time_step);
     text
 }
@@ -104,11 +112,20 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
     text += &budget::text(&outcome.budget, tally.capillary_loss);
     let seconds = outcome.wall_time.as_secs_f64();
     text += &format!(
-        "  {} steps in {seconds:.1} s; largest overlap {:.2} % of a radius",
+        "  {} steps in {seconds:.1} s; largest overlap {:.2} % of a radius\n  {}",
         outcome.steps,
-        100.0 * outcome.largest_overlap
+        100.0 * outcome.largest_overlap,
+        outcome.spent.line()
     );
     text
+}
+
+/// Cut size, mm, and imperfection.
+fn partition_of(scene: &Scene, derived: &Derived, tally: &Tally) -> (Option<f64>, Option<f64>) {
+    let diameters: Vec<f64> = scene.classes.iter().map(|class| class.diameter_mm).collect();
+    let counts = tally.passed.iter().zip(&derived.counts);
+    let passed: Vec<f64> = counts.map(|(&n, &all)| n as f64 / all.max(1) as f64).collect();
+    partition(&diameters, &passed)
 }
 
 /// Writes `summary.json`.
@@ -135,7 +152,7 @@ pub(crate) fn summary(
             (name, json!(volume))
         })
         .collect();
-    let profile = outcome.profile;
+    let (cut, imperfection) = partition_of(scene, derived, tally);
     let document = json!({
         "program": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "scene": source,
@@ -167,6 +184,7 @@ pub(crate) fn summary(
         "collected": by_class(tally.collected.iter().map(|n| json!(n)).collect()),
         "passed": by_class(tally.passed.iter().map(|n| json!(n)).collect()),
         "above": by_class(tally.above.iter().map(|n| json!(n)).collect()),
+        "partition": { "cut_size_mm": cut, "imperfection": imperfection },
         "escaped": tally.escaped,
         "bridges": {
             "formed": tally.counts.formed,
@@ -186,13 +204,9 @@ pub(crate) fn summary(
         "least_limit_s": outcome.limit.is_finite().then_some(outcome.limit),
         "budget": budget::document(&outcome.budget, tally.capillary_loss),
         "wall_time_s": outcome.wall_time.as_secs_f64(),
-        "time_split_s": {
-            "neighbours": profile.neighbours.as_secs_f64(),
-            "pairs": profile.pairs.as_secs_f64(),
-            "walls": profile.walls.as_secs_f64(),
-            "settling": profile.settling.as_secs_f64(),
-            "integration": profile.integration.as_secs_f64(),
-        },
+        "stopped_by_guard": outcome.fault,
+        "time_split_s": outcome.spent.seconds(),
+        "time_split_percent": outcome.spent.percent(),
     });
     let write = || -> std::io::Result<()> {
         let mut file = std::fs::File::create(path)?;

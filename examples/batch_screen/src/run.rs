@@ -1,11 +1,12 @@
 //! The run: steps, passages, rows of results, checkpoints.
 
+use std::cell::Cell;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use pendular::dem::{Departure, Particle, Profile, Simulation};
+use pendular::dem::{Departure, Particle, Simulation};
 use pendular::{Account, Budget, MeshWalls};
 
 use crate::auto::Decision;
@@ -15,11 +16,14 @@ use crate::build::{Built, Derived, WetTerm};
 use crate::checkpoint::{Checkpoint, Core, StoredWet};
 use crate::error::{RunError, SceneError};
 use crate::frames;
+use crate::guard::{Fault, Guard};
+use crate::liquid_final;
 use crate::makeup::Makeup;
 use crate::progress::Progress;
 use crate::report;
 use crate::scene::Scene;
 use crate::screening::Screening;
+use crate::spent::Spent;
 use crate::tables::{Start, Tables};
 use crate::tally::{Gone, Tally};
 use crate::vtk::Series;
@@ -37,10 +41,12 @@ pub(crate) struct Outcome {
     pub(crate) steps: u64,
     pub(crate) largest_overlap: f64,
     pub(crate) wall_time: Duration,
-    pub(crate) profile: Profile,
     pub(crate) budget: Budget,
     /// The least stability limit of the packing at any row, s.
     pub(crate) limit: f64,
+    pub(crate) spent: Spent,
+    /// Why the run stopped before its end, if it did.
+    pub(crate) fault: Option<String>,
 }
 
 /// What a run is besides its scene.
@@ -130,6 +136,14 @@ struct Run<'a, T: Makeup> {
     before: f64,
     budget: Budget,
     limit: f64,
+    guard: Guard,
+    /// Where the time went before this run was taken up again, and what its results have taken.
+    spent: Spent,
+    fault: Option<String>,
+    /// What the last look has found.
+    gone_wrong: Option<Fault>,
+    /// Simulated time of the last checkpoint, s.
+    saved: Cell<f64>,
 }
 
 impl<'a, T: Makeup> Run<'a, T> {
@@ -146,6 +160,7 @@ impl<'a, T: Makeup> Run<'a, T> {
         let names = part_names(&simulation);
         let tables = Tables::create(&job.out, scene, &derived, &names, &first)?;
         let apertures = screening.apertures();
+        let guard = Guard::new(scene, simulation.boundary(), &derived.class);
         let vtk = match job.vtk {
             Some(_) => Some(Series::create(&job.out.join("paraview"))?),
             None => None,
@@ -167,6 +182,11 @@ impl<'a, T: Makeup> Run<'a, T> {
             before,
             budget: Budget::default(),
             limit: f64::INFINITY,
+            guard,
+            spent: Spent::default(),
+            fault: None,
+            gone_wrong: None,
+            saved: Cell::new(0.0),
         })
     }
 
@@ -203,6 +223,11 @@ impl<'a, T: Makeup> Run<'a, T> {
             before: from.elapsed,
             budget: from.budget,
             limit: from.limit,
+            guard: Guard::new(scene, simulation.boundary(), &from.class),
+            spent: from.spent,
+            fault: None,
+            gone_wrong: None,
+            saved: Cell::new(simulation.time()),
             simulation,
         })
     }
@@ -218,12 +243,14 @@ impl<'a, T: Makeup> Run<'a, T> {
         let interval = self.scene.output_interval;
         if self.rows > 0 && self.simulation.step() >= last {
             // Taken up again after its end: there is nothing left to do.
-            return Ok(self.outcome(begun));
+            return self.finish(begun);
         }
         if self.simulation.step() == 0 {
             // From here on the run can be taken up again, whenever it is killed.
             self.save(begun)?;
         }
+        progress.begin(self.simulation.step(), self.simulation.time());
+        let mut output = Instant::now();
         loop {
             let now = self.simulation.step();
             // Intervals shorter than a step give one frame or row a step.
@@ -252,10 +279,18 @@ impl<'a, T: Makeup> Run<'a, T> {
                 at(self.rows, interval).min(at(self.frames, replay)).min(vtk_at(self.vtk_frames));
             // Stay on multiples of the batch, so that passages are booked when they happen.
             let steps = (BATCH - now % BATCH).min(next.min(last) - now);
+            self.spent.output += output.elapsed();
             let advanced = self.simulation.advance(steps);
+            output = Instant::now();
             self.look()?;
-            if let Err(error) = advanced {
-                return Err(RunError::Simulation(error));
+            let sound = match advanced {
+                Ok(()) => self.guard.look(&self.simulation, &self.screening),
+                Err(error) => Err(self.guard.broken(&error, self.simulation.time())),
+            };
+            // Before anything is saved: a broken state never takes the place of a sound one.
+            if let Err(fault) = sound.and_then(|()| self.gone_wrong.take().map_or(Ok(()), Err)) {
+                progress.finish();
+                return Err(self.stop_at(fault, begun));
             }
             if self.simulation.step().is_multiple_of(budget::EVERY) {
                 budget::look(&self.simulation, &mut self.budget);
@@ -273,7 +308,26 @@ impl<'a, T: Makeup> Run<'a, T> {
         }
         progress.finish();
         self.save(begun)?;
+        self.spent.output += output.elapsed();
+        let outcome = self.finish(begun)?;
+        self.summary(&outcome)?;
+        Ok(outcome)
+    }
+
+    /// Writes what only the end of a run has.
+    fn finish(&self, begun: Instant) -> Result<Outcome, RunError> {
+        liquid_final::write(&self.job.out, self.scene, &self.simulation, &self.tally())?;
         Ok(self.outcome(begun))
+    }
+
+    /// Writes the last outputs of a state that cannot be, and says what is wrong with it.
+    fn stop_at(&mut self, fault: Fault, begun: Instant) -> RunError {
+        self.fault = Some(format!("t = {:.6} s: {}", fault.time, fault.what));
+        let sound = self.simulation.particles().kinetic_energy().is_finite();
+        // Whatever else fails now, the fault is what there is to say.
+        let _ = if sound { self.row().map(|_| ()) } else { Ok(()) };
+        let _ = self.summary(&self.outcome(begun));
+        RunError::Guard { fault, folder: self.job.out.clone(), saved: self.saved.get() }
     }
 
     /// How the run stands.
@@ -284,9 +338,10 @@ impl<'a, T: Makeup> Run<'a, T> {
             steps: self.simulation.step(),
             largest_overlap: self.simulation.largest_overlap(),
             wall_time: begun.elapsed() + Duration::from_secs_f64(self.before),
-            profile: self.simulation.profile(),
             budget: self.budget,
             limit: self.limit,
+            spent: self.spent.with(&self.simulation.profile()),
+            fault: self.fault.clone(),
         }
     }
 
@@ -299,6 +354,7 @@ impl<'a, T: Makeup> Run<'a, T> {
             time: self.scene.time,
             time_step: self.simulation.settings().time_step,
             seed: self.scene.seed,
+            allow_unstable: self.simulation.settings().allow_unstable,
             vtk: self.job.vtk,
             class: self.derived.class.clone(),
             core: Core::of(&self.simulation),
@@ -314,21 +370,21 @@ impl<'a, T: Makeup> Run<'a, T> {
             frames: self.frames,
             vtk_frames: self.vtk_frames,
             elapsed: self.before + begun.elapsed().as_secs_f64(),
+            spent: self.spent.with(&self.simulation.profile()),
         };
+        self.summary(&self.outcome(begun))?;
+        checkpoint.write(&self.job.out)?;
+        self.saved.set(self.simulation.time());
+        Ok(())
+    }
+
+    fn summary(&self, outcome: &Outcome) -> Result<(), RunError> {
         let path = self.job.out.join("summary.json");
-        let (settings, outcome) = (self.simulation.settings(), self.outcome(begun));
+        let settings = self.simulation.settings();
         let parts = part_names(&self.simulation);
         let source = &self.job.source;
-        report::summary(
-            &path,
-            self.scene,
-            (source, &self.job.decided),
-            settings,
-            &self.derived,
-            &outcome,
-            &parts,
-        )?;
-        Ok(checkpoint.write(&self.job.out)?)
+        let source = (source.as_str(), &self.job.decided[..]);
+        report::summary(&path, self.scene, source, settings, &self.derived, outcome, &parts)
     }
 
     fn tally(&self) -> Tally {
@@ -377,15 +433,21 @@ impl<'a, T: Makeup> Run<'a, T> {
     /// Books who has passed the screen and who has been collected.
     fn look(&mut self) -> Result<(), RunError> {
         let mut passages = self.screening.passages(&self.simulation);
+        let mut wrong = Ok(());
         let (low, far) = collection(self.scene);
         for Departure { particle, time } in self.simulation.take_departures() {
             let x = particle.position;
             let collected = x.z < low || (x.x > far && x.z < 0.0);
             if collected {
                 self.screening.note(particle, time, &mut passages);
+            } else {
+                wrong = wrong.and(self.guard.escaped(particle.id, x, time));
             }
             self.book(&particle, collected);
         }
+        let classes = self.simulation.particles().classes();
+        let radii: Vec<f64> = classes.iter().map(|class| class.radius()).collect();
+        self.gone_wrong = wrong.and(self.guard.passed(&passages, &radii)).err();
         let wet = self.simulation.term().wet();
         let film =
             |id: u32| wet.map_or(0.0, |wet: &WetTerm| wet.ledger().volume(Account::Film(id)));

@@ -5,12 +5,17 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use crate::document;
 use crate::error::SceneError;
+use crate::place::Origin;
 
 /// A screening scene. Units are SI unless the key's name says another one.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Scene {
+    /// Where its values were given, for messages.
+    #[serde(skip)]
+    pub(crate) origin: Origin,
     /// One line that says what this is.
     pub(crate) title: String,
     /// Simulated time, s.
@@ -50,6 +55,35 @@ pub(crate) struct Scene {
     /// The liquid; a dry run where it is left out.
     #[serde(default)]
     pub(crate) liquid: Option<LiquidSpec>,
+    /// When a run stops because its state cannot be.
+    #[serde(default)]
+    pub(crate) guard: GuardSpec,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct GuardSpec {
+    /// Largest overlap, as a share of the smaller radius.
+    pub(crate) overlap_share: f64,
+    /// Largest speed, m/s; from drop height and wall speed where it is left out.
+    pub(crate) speed: Option<f64>,
+    pub(crate) escapes: Escapes,
+}
+
+impl Default for GuardSpec {
+    fn default() -> Self {
+        Self { overlap_share: 0.2, speed: None, escapes: Escapes::Stop }
+    }
+}
+
+/// What a sphere does that leaves through a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Escapes {
+    /// It stops the run.
+    Stop,
+    /// It is counted.
+    Count,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -277,36 +311,42 @@ fn thousandth() -> f64 {
 }
 
 impl Scene {
-    /// Reads a scene from TOML text; `origin` is the file that errors name.
-    pub(crate) fn parse(text: &str, origin: &Path) -> Result<Self, SceneError> {
-        let file = origin.to_path_buf();
-        let syntax = |e: toml::de::Error| SceneError::Syntax {
-            file: file.clone(),
-            key: String::from("."),
-            message: e.to_string(),
-        };
-        let document = toml::Deserializer::parse(text).map_err(syntax)?;
-        let scene: Self = serde_path_to_error::deserialize(document).map_err(|e| {
-            let key = e.path().to_string();
-            SceneError::Syntax { file: file.clone(), key, message: located(text, e.inner()) }
-        })?;
-        crate::check::check(&scene, origin)?;
+    /// Reads a scene from TOML text; `file` is what errors name.
+    pub(crate) fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::read(text, Origin::new(file, text))
+    }
+
+    /// Reads a scene from a text whose values were given at `origin`.
+    pub(crate) fn read(text: &str, origin: Origin) -> Result<Self, SceneError> {
+        let mut scene: Self = document::read(text, &origin)?;
+        scene.origin = origin;
+        crate::check::check(&scene)?;
         Ok(scene)
+    }
+
+    /// A wrong value, with its place.
+    pub(crate) fn fail(
+        &self,
+        key: &str,
+        value: impl ToString,
+        allowed: impl ToString,
+    ) -> SceneError {
+        SceneError::Value {
+            place: self.origin.place(key),
+            key: key.to_owned(),
+            value: value.to_string(),
+            allowed: allowed.to_string(),
+        }
+    }
+
+    /// What went wrong with a value that is well formed, with its place.
+    pub(crate) fn at(&self, key: &str, source: impl Into<SceneError>) -> SceneError {
+        let (place, key) = (self.origin.place(key), key.to_owned());
+        SceneError::At { place, key, source: Box::new(source.into()) }
     }
 
     /// Index of a material in the order of names.
     pub(crate) fn material(&self, name: &str) -> Option<u8> {
         self.materials.keys().position(|known| known == name).map(|k| k as u8)
     }
-}
-
-/// The parser's message, with line and column: those it gives where it has the text, else found
-/// from the span.
-fn located(text: &str, error: &toml::de::Error) -> String {
-    let Some(span) = error.span() else { return error.message().to_owned() };
-    let before = &text[..span.start.min(text.len())];
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    let source = text.lines().nth(line - 1).unwrap_or("");
-    format!("line {line}, column {column}: {}\n  | {source}", error.message().trim_end())
 }

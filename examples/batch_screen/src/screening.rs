@@ -70,6 +70,11 @@ impl Screening {
         }
     }
 
+    /// Whether a particle has passed the screen.
+    pub(crate) fn is_through(&self, id: u32) -> bool {
+        self.through.get(id as usize).copied().unwrap_or(false)
+    }
+
     /// Number of apertures whose centre lies in the frame.
     pub(crate) fn apertures(&self) -> u64 {
         let most = (self.radius / self.pitch()).ceil() as i32;

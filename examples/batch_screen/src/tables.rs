@@ -117,7 +117,8 @@ impl Tables {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
         // Nothing of an earlier run in this folder may be taken for part of this one.
-        for name in ["report.html", "liquid.csv", "liquid_shared.csv", "bridges.csv"] {
+        let wet = ["liquid.csv", "liquid_shared.csv", "liquid_final.csv", "bridges.csv"];
+        for name in ["report.html"].into_iter().chain(wet) {
             let path = folder.join(name);
             match std::fs::remove_file(&path) {
                 Err(source) if source.kind() != std::io::ErrorKind::NotFound => {

@@ -3,32 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
-fn program() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_batch_screen"))
-}
+mod common;
 
-fn run(folder: &Path, args: &[&str]) -> Output {
-    program().current_dir(folder).args(args).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// The demo, made small: 24 spheres on a sieve of 40 mm.
-fn small() -> String {
-    let demo = text(&program().args(["show", "demo"]).output().unwrap().stdout);
-    demo.replace("count = 267", "count = 16")
-        .replace("count = 99", "count = 6")
-        .replace("count = 34", "count = 2")
-        .replace("diameter_mm = 80 ", "diameter_mm = 40 ")
-        .replace("time = 2.0", "time = 0.08")
-        .replace("output_interval = 0.02", "output_interval = 0.01")
-        .replace("floor_height_mm = 15", "floor_height_mm = 12")
-}
+use common::{program, run, small, summary, text};
 
 #[test]
 fn lists_shows_and_checks_every_built_in_scene() {
@@ -57,9 +35,7 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
     fs::write(folder.path().join("small.toml"), small()).unwrap();
     let done = run(folder.path(), &["run", "small.toml", "--out", "one", "--threads", "1"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
-    let summary: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(folder.path().join("one/summary.json")).unwrap())
-            .unwrap();
+    let summary = summary(&folder.path().join("one"));
     assert!(summary["liquid_imbalance"].as_f64().unwrap().abs() < 1e-12);
     assert_eq!(summary["escaped"], 0);
     assert!(summary["bridges"]["formed"].as_u64().unwrap() > 10);
@@ -70,6 +46,11 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
         liquid.records().map(|row| row.unwrap()[total].parse().unwrap()).collect();
     assert_eq!(totals.len(), 9);
     assert!(totals.iter().all(|v| (v / totals[0] - 1.0).abs() < 1e-8));
+    divisions(&folder.path().join("one"), &totals, &summary);
+    let percent = summary["time_split_percent"].as_object().unwrap();
+    let all: f64 = percent.values().map(|v| v.as_f64().unwrap()).sum();
+    assert!(percent.len() == 6 && (all - 100.0).abs() < 1e-9, "{percent:?}");
+    assert!(text(&done.stdout).contains("computing time: neighbours"));
     let mut retained = csv::Reader::from_path(folder.path().join("one/retained.csv")).unwrap();
     let first = retained.records().next().unwrap().unwrap();
     assert_eq!(&first[0], "0.000000");
@@ -81,6 +62,39 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
         let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
         assert!(read("one") == read("two"), "{table} differs");
     }
+}
+
+/// The liquid at the end adds up, and agrees with the last row of the split over time.
+fn divisions(folder: &std::path::Path, totals: &[f64], summary: &serde_json::Value) {
+    let mut table = csv::Reader::from_path(folder.join("liquid_final.csv")).unwrap();
+    let rows: Vec<(String, String, [f64; 3])> =
+        table.deserialize().map(|row| row.unwrap()).collect();
+    let sum = |division: &str, k: usize| {
+        let those = rows.iter().filter(|row| row.0 == division && row.1 != "all");
+        those.map(|row| row.2[k]).sum::<f64>()
+    };
+    let of = |division: &str, place: &str| {
+        rows.iter().find(|row| row.0 == division && row.1 == place).unwrap().2
+    };
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * totals[0], "{a} {b}");
+    for division in ["apparatus", "coarse and screen", "fines"] {
+        (0..2).for_each(|k| close(sum(division, k), of(division, "all")[k]));
+    }
+    let [all, bridges, share] = of("all", "all");
+    close(all, totals[0]);
+    close(bridges, summary["liquid_m3"]["bridges"].as_f64().unwrap());
+    assert!((share - 1.0).abs() < 1e-9 && of("residuals", "all")[0].abs() < 1e-9 * all);
+    let mut shared = csv::Reader::from_path(folder.join("liquid_shared.csv")).unwrap();
+    let header = shared.headers().unwrap().clone();
+    let last = shared.records().last().unwrap().unwrap();
+    let cell = |name: &str| -> f64 {
+        last[header.iter().position(|h| h == name).unwrap()].parse().unwrap()
+    };
+    close(of("coarse and screen", "wires")[0], cell("wires [m3]"));
+    close(of("coarse and screen", "5 mm")[0], cell("above 5 mm [m3]"));
+    let frame = of("apparatus", "feed bin")[0] + of("coarse and screen", "screen frame")[0];
+    close(frame, cell("frame [m3]"));
+    assert!(of("coarse and screen", "wires")[0] > 0.0 && bridges > 0.0);
 }
 
 #[test]
@@ -95,40 +109,58 @@ fn a_dry_run_has_no_liquid_tables() {
     assert!(!folder.path().join("out/dry/liquid.csv").exists());
 }
 
-/// Bad scenes: what is changed in a good one, and what the error must say.
-const BAD: &[(&str, &str, &[&str])] = &[
-    ("aperture_mm = 8", "apperture_mm = 8", &["screen", "apperture_mm", "line"]),
-    ("aperture_mm = 8", "aperture_mm = -8", &["screen.aperture_mm", "-8", "above 0"]),
-    ("aperture_mm = 8", "aperture_mm = \"8\"", &["screen.aperture_mm", "line"]),
-    ("aperture_mm = 8", "aperture_mm = nan", &["screen.aperture_mm", "NaN"]),
-    ("aperture_mm = 8", "aperture_mm = 8 8", &["line"]),
-    ("wire_diameter_mm = 2", "wire_diameter_mm = 0", &["screen.wire_diameter_mm"]),
-    ("diameter_mm = 5\n", "diameter_mm = 0\n", &["classes[0].diameter_mm"]),
-    ("density = 1358", "density = inf", &["classes[0].density", "inf"]),
-    ("count = 16", "mass_g = -1", &["classes[0].mass_g"]),
-    ("count = 16", "", &["classes[0].mass_g", "count"]),
-    ("count = 16", "count = 16\nmass_g = 1", &["classes[0]", "one of the two"]),
-    ("name = \"7 mm\"", "name = \"5 mm\"", &["classes[1].name"]),
-    ("material = \"POM\"", "material = \"PON\"", &["classes[0].material", "PON", "steel"]),
-    ("capillary = \"tabulated\"", "capillary = \"lambda\"", &["liquid.capillary", "lambert"]),
-    ("normal_drag = \"pitois\"", "normal_drag = \"x\"", &["liquid.normal_drag", "pitois"]),
-    ("rupture = \"tabulated\"", "rupture = \"w\"", &["liquid.rupture", "mikami"]),
-    ("transfer = \"exact\"", "transfer = \"thirds\"", &["transfer", "parabola"]),
-    ("contact_angle_deg = 40", "contact_angle_deg = 180", &["POM", "contact_angle_deg", "179"]),
-    ("restitution = 0.8038", "restitution = 1.5", &["contacts[0].restitution", "1"]),
-    ("friction = 0.3725", "friction = -1", &["contacts[0].friction"]),
-    ("moisture_percent = 5", "moisture_percent = -5", &["liquid.moisture_percent"]),
-    ("surface_tension = 0.07275", "surface_tension = 0", &["liquid.surface_tension"]),
-    ("stiffness = 1e5", "stiffness = 0", &["contact.stiffness"]),
-    ("solid_fraction = 0.3", "solid_fraction = 0.7", &["packing.solid_fraction", "0.35"]),
+/// Bad scenes: what is changed in a good one, where the error must point (at the change where
+/// nothing is said), and what it must say.
+const BAD: &[(&str, &str, &str, &[&str])] = &[
+    (
+        "aperture_mm = 8",
+        "apperture_mm = 8",
+        "",
+        &["screen.apperture_mm", "allowed", "`aperture_mm`"],
+    ),
+    ("aperture_mm = 8", "aperture_mm = -8", "", &["screen.aperture_mm", "-8", "above 0"]),
+    ("aperture_mm = 8", "aperture_mm = \"8\"", "", &["screen.aperture_mm", "allowed: a number"]),
+    ("aperture_mm = 8", "aperture_mm = true", "", &["screen.aperture_mm", "allowed: a number"]),
+    ("aperture_mm = 8", "aperture_mm = nan", "", &["screen.aperture_mm", "NaN"]),
+    ("aperture_mm = 8", "aperture_mm = 8 8", "", &["aperture_mm"]),
+    ("aperture_mm = 8", "", "[screen]", &["screen.aperture_mm", "missing"]),
+    ("wire_diameter_mm = 2", "wire_diameter_mm = 0", "", &["screen.wire_diameter_mm"]),
+    ("wires = \"cylinders\"", "wires = \"ropes\"", "", &["screen.wires", "cylinders", "mesh"]),
+    ("diameter_mm = 5\n", "diameter_mm = 0\n", "", &["classes[0].diameter_mm"]),
+    ("density = 1358", "density = inf", "", &["classes[0].density", "inf"]),
+    ("count = 16", "mass_g = -1", "", &["classes[0].mass_g"]),
+    ("count = 16", "count = -1", "", &["classes[0].count", "a whole number"]),
+    ("count = 16", "", "[[classes]]", &["classes[0].mass_g", "count"]),
+    ("count = 16", "count = 16\nmass_g = 1", "", &["classes[0]", "one of the two"]),
+    ("name = \"7 mm\"", "name = \"5 mm\"", "", &["classes[1].name"]),
+    ("material = \"POM\"", "material = \"PON\"", "", &["classes[0].material", "PON", "steel"]),
+    ("capillary = \"tabulated\"", "capillary = \"lambda\"", "", &["liquid.capillary", "lambert"]),
+    ("normal_drag = \"pitois\"", "normal_drag = \"x\"", "", &["liquid.normal_drag", "pitois"]),
+    ("rupture = \"tabulated\"", "rupture = \"w\"", "", &["liquid.rupture", "mikami"]),
+    ("transfer = \"exact\"", "transfer = \"thirds\"", "", &["transfer", "parabola"]),
+    ("contact_angle_deg = 40", "contact_angle_deg = 180", "", &["materials.POM", "179"]),
+    ("restitution = 0.8038", "restitution = 1.5", "", &["contacts[0].restitution", "1"]),
+    ("friction = 0.3725", "friction = -1", "", &["contacts[0].friction"]),
+    ("[\"POM\", \"steel\"]", "[\"POM\", \"POM\"]", "[[contacts]]", &["contacts", "POM with steel"]),
+    ("[\"POM\", \"steel\"]", "[\"POM\"]", "", &["contacts[1].between"]),
+    ("moisture_percent = 5", "moisture_percent = -5", "", &["liquid.moisture_percent"]),
+    ("surface_tension = 0.07275", "surface_tension = 0", "", &["liquid.surface_tension"]),
+    ("stiffness = 1e5", "stiffness = 0", "", &["contact.stiffness"]),
+    ("solid_fraction = 0.3", "solid_fraction = 0.7", "", &["packing.solid_fraction", "0.35"]),
+    ("from = \"bin\"", "from = \"heap\"", "", &["packing", "random", "bin", "file"]),
+    ("solid_fraction = 0.3", "fraction = 0.3", "", &["packing.fraction", "solid_fraction"]),
+    ("seed = 1\n", "seed = 1.5\n", "", &["seed", "a whole number"]),
+    ("output_interval = 0.01", "output_interval = 0", "", &["output_interval", "above 0"]),
+    ("phase_deg = [90, 45, 0]", "phase_deg = [90, 45]", "", &["motion.phase_deg", "3"]),
     (
         "time_step = 5e-6",
         "time_step = 1e-3",
-        &["time step", "class 5 mm", "contact springs and dashpots"],
+        "",
+        &["time_step", "class 5 mm", "contact springs and dashpots", "--allow-unstable"],
     ),
-    ("height_mm = 120", "height_mm = 13", &["screen.height_mm"]),
-    ("title = ", "tittle = ", &["tittle", "line 2"]),
-    ("[motion]", "[motions]", &["motions"]),
+    ("height_mm = 120", "height_mm = 13", "solid_fraction", &["screen.height_mm"]),
+    ("title = ", "tittle = ", "", &["tittle", "`title`"]),
+    ("[motion]", "[motions]", "", &["motions", "`motion`"]),
 ];
 
 #[test]
@@ -138,17 +170,47 @@ fn bad_scenes_say_where_and_what_is_allowed_and_leave_results_alone() {
     fs::create_dir_all(kept.parent().unwrap()).unwrap();
     fs::write(&kept, "earlier results").unwrap();
     let good = small();
-    for (from, to, wanted) in BAD {
-        assert!(good.contains(from), "the scene has no `{from}`");
-        fs::write(folder.path().join("bad.toml"), good.replacen(from, to, 1)).unwrap();
+    for (from, to, at, wanted) in BAD {
+        let start = good.find(from).unwrap_or_else(|| panic!("the scene has no `{from}`"));
+        let bad = good.replacen(from, to, 1);
+        let start = if at.is_empty() { start } else { bad.find(at).unwrap() };
+        let line = bad[..start].matches('\n').count() + 1;
+        fs::write(folder.path().join("bad.toml"), bad).unwrap();
         let done = run(folder.path(), &["run", "bad.toml"]);
         let said = text(&done.stderr);
         assert_eq!(done.status.code(), Some(2), "{to}: {said}");
+        let place = format!("bad.toml, line {line}: key `");
+        assert!(said.contains(&place), "{to}: `{place}` is not in: {said}");
         for word in *wanted {
             assert!(said.contains(word), "{to}: `{word}` is not in: {said}");
         }
         assert_eq!(fs::read_to_string(&kept).unwrap(), "earlier results", "{to}");
     }
+}
+
+#[test]
+fn options_of_the_command_line_change_the_scene_and_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    for (option, value, wanted) in [
+        ("--set", "liquid.viscosity=-1", "command line, --set: key `liquid.viscosity`"),
+        ("--set", "liquid.capilary=x", "command line, --set: key `liquid.capilary`"),
+        ("--set", "classes[9].count=3", "below 3"),
+        ("--set", "liquid", "KEY=VALUE"),
+        ("--time", "-1", "command line, --time: key `time`"),
+        ("--dt", "1e-3", "command line, --dt: key `time_step`"),
+    ] {
+        let done = run(folder.path(), &["run", "small.toml", option, value]);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{value}: {said}");
+        assert!(said.contains(wanted), "{value}: `{wanted}` is not in: {said}");
+    }
+    let dry = ["run", "small.toml", "--time", "0.001", "--set", "classes[0].count=9", "--out", "o"];
+    assert!(run(folder.path(), &dry).status.success());
+    assert_eq!(summary(&folder.path().join("o"))["derived"]["particles"]["5 mm"], 9);
+    // What was set is part of the run: it is there again when the run goes on.
+    let again = run(folder.path(), &["resume", "o"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
 }
 
 #[test]
@@ -192,7 +254,7 @@ fn missing_and_broken_files() {
 }
 
 /// Files whose bytes must not depend on whether a run was stopped.
-const TABLES: [&str; 9] = [
+const TABLES: [&str; 10] = [
     "retained.csv",
     "partition.csv",
     "pegging.csv",
@@ -201,6 +263,7 @@ const TABLES: [&str; 9] = [
     "replay.csv",
     "liquid.csv",
     "liquid_shared.csv",
+    "liquid_final.csv",
     "bridges.csv",
 ];
 
@@ -255,12 +318,7 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
         all
     };
     assert!(frames("whole").len() > 6 && frames("whole") == frames("cut"));
-    let imbalance = |run: &str| -> serde_json::Value {
-        let path = folder.path().join(run).join("summary.json");
-        let summary: serde_json::Value =
-            serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-        summary["liquid_imbalance"].clone()
-    };
+    let imbalance = |run: &str| summary(&folder.path().join(run))["liquid_imbalance"].clone();
     assert_eq!(imbalance("whole"), imbalance("cut"));
     assert!(folder.path().join("cut/report.html").exists());
 }

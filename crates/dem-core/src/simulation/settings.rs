@@ -5,7 +5,7 @@ use rayon::ThreadPool;
 
 use crate::limit::Limit;
 use crate::particles::Particles;
-use crate::{PairTerm, SimulationError};
+use crate::{Boundary, PairTerm, SimulationError};
 
 /// What a simulation needs to know besides bodies and laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +56,19 @@ pub(super) fn threads(threads: usize) -> Result<Option<ThreadPool>, SimulationEr
         reason: e.to_string(),
     };
     pool.map(Some).map_err(failed)
+}
+
+/// Refuses walls of a material that the term does not know.
+pub(super) fn check_walls<T: PairTerm, B: Boundary>(
+    term: &T,
+    boundary: &B,
+) -> Result<(), SimulationError> {
+    match (boundary.materials(), term.wall_materials()) {
+        (used, Some(known)) if used > known => {
+            Err(SimulationError::WallMaterial { material: used - 1, known })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The stability limit, if the settings can be used.

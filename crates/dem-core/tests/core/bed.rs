@@ -81,6 +81,10 @@ impl Boundary for Tray {
         0
     }
 
+    fn materials(&self) -> usize {
+        1
+    }
+
     fn is_present(&self, _: u32) -> bool {
         true
     }

@@ -1,7 +1,9 @@
 //! Bad input is a typed error.
 
+use pendular_contact::Linear;
 use pendular_dem_core::{
-    Class, DVec3, NoWalls, ParticleError, Particles, Settings, Simulation, SimulationError,
+    Class, Contact, DVec3, NoWalls, PairContact, ParticleError, Particles, Partner, Settings,
+    Simulation, SimulationError,
 };
 
 use crate::bed::{RUB, Tray, contact};
@@ -67,6 +69,37 @@ fn overlaps_at_the_start_are_refused() {
     let term = contact(sunk.classes(), RUB);
     let error = Simulation::new(sunk, term, Tray::still(None), Settings::new(1e-6)).unwrap_err();
     assert!(matches!(error, SimulationError::StartOverlap { .. }), "{error}");
+}
+
+#[test]
+fn walls_of_a_material_without_law_are_refused() {
+    let law = PairContact {
+        normal: Linear::from_restitution(1e4, 0.8, 1e-6).unwrap(),
+        friction: 0.0,
+        rolling_friction: 0.0,
+        tangential_damping: 0.0,
+    };
+    for (materials, good) in [(0, false), (1, true), (2, true)] {
+        let term = Contact::new(one().classes(), materials, move |_, _| law, move |_, _| law);
+        let set_up = Simulation::new(one(), (term, ()), Tray::still(None), Settings::new(1e-7));
+        match set_up {
+            Ok(_) => assert!(good),
+            Err(SimulationError::WallMaterial { material: 0, known: 0 }) => assert!(!good),
+            Err(other) => panic!("{other}"),
+        }
+    }
+}
+
+#[test]
+fn the_deepest_overlap_says_who() {
+    let mut particles = one();
+    particles.push(0, DVec3::Z * 3.98e-3, DVec3::ZERO, DVec3::ZERO).unwrap();
+    let term = contact(particles.classes(), RUB);
+    let tray = Tray { height: 0.99e-3, ..Tray::still(None) };
+    let simulation = Simulation::new(particles, term, tray, Settings::new(1e-6)).unwrap();
+    let (share, encounter) = simulation.deepest().unwrap();
+    assert!((share - 0.02).abs() < 1e-9, "{share}");
+    assert_eq!((encounter.first, encounter.second), (0, Partner::Particle(1)));
 }
 
 #[test]

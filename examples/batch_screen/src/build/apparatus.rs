@@ -21,13 +21,14 @@ const ROWS: u32 = 12;
 
 /// All walls during screening.
 pub(crate) fn walls(scene: &Scene, base: &Path) -> Result<Walls, SceneError> {
-    let mut parts = screen(scene, &motion(scene))?;
+    let mut parts = screen(scene, &motion(scene)).map_err(|e| scene.at("screen", e))?;
     if let Some(housing) = &scene.housing {
-        parts.extend(below(scene, housing)?);
+        parts.extend(below(scene, housing).map_err(|e| scene.at("housing", e))?);
     }
-    for file in &scene.parts {
+    for (k, file) in scene.parts.iter().enumerate() {
         parts.retain(|part| group(&part.name) != file.name);
-        parts.push(from_file(scene, file, base)?);
+        let wrong = |source| scene.at(&format!("parts[{k}].stl"), source);
+        parts.push(from_file(scene, file, base).map_err(wrong)?);
     }
     Ok(Walls::new(parts)?)
 }
@@ -152,7 +153,7 @@ pub(crate) fn floor(scene: &Scene) -> Option<f64> {
     }
 }
 
-fn from_file(scene: &Scene, file: &PartFile, base: &Path) -> Result<Part, SceneError> {
+fn from_file(scene: &Scene, file: &PartFile, base: &Path) -> Result<Part, WallError> {
     let mesh = Mesh::from_stl(base.join(&file.stl), file.scale)?;
     let motion = if file.moves { motion(scene) } else { Motion::STILL };
     let material = scene.material(&file.material).unwrap_or_default();

@@ -1,22 +1,19 @@
 //! The bed at the start: placed, read, or settled dry in the feed bin and kept for the next run.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use glam::DVec3;
-use pendular::MeshWalls;
-use pendular::dem::{Class, Particles, Settings, Simulation};
+use pendular::dem::Class;
 
-use super::{apparatus, laws};
+use super::apparatus;
+use super::settle::{Settling, settle};
 use crate::error::SceneError;
 use crate::packing::{self, Placed, Space};
 use crate::scene::{Packing, Scene};
-
-/// A bed counts as settled below this kinetic energy over the energy of a fall by one radius.
-const AT_REST: f64 = 1e-5;
-/// Steps between looks at the kinetic energy.
-const LOOK: u64 = 1_000;
 
 /// Where a bed comes from and where settled ones are kept.
 pub(crate) struct Source<'a> {
@@ -28,6 +25,18 @@ pub(crate) struct Source<'a> {
     pub(crate) threads: usize,
     /// Whether to say on stderr that a bed is being settled, which can take minutes.
     pub(crate) tell: bool,
+    /// Set when settling is to stop; it goes on from there the next time.
+    pub(crate) stop: &'a AtomicBool,
+    /// Wall time between checkpoints of the settling, s.
+    pub(crate) checkpoint_every: f64,
+}
+
+/// One lock a bed, so that runs side by side do not settle the same one twice.
+static BEDS: Mutex<BTreeMap<PathBuf, Arc<Mutex<()>>>> = Mutex::new(BTreeMap::new());
+
+fn lock_of(bed: &Path) -> Arc<Mutex<()>> {
+    let mut all = BEDS.lock().unwrap_or_else(PoisonError::into_inner);
+    Arc::clone(all.entry(bed.to_path_buf()).or_default())
 }
 
 /// The particles of a scene at t = 0, at rest.
@@ -43,32 +52,43 @@ pub(crate) fn place(
     match &scene.packing {
         Packing::File { path } => {
             let file = source.base.join(path);
-            let placed = packing::from_file(&file, &radii, &densities)?;
-            inside(scene, &file, &placed)?;
+            let wrong = |source| scene.at("packing.path", source);
+            let placed = packing::from_file(&file, &radii, &densities).map_err(wrong)?;
+            inside(scene, &file, &placed).map_err(wrong)?;
             Ok(placed)
         }
         Packing::Random { solid_fraction, clearance_mm } => {
             let wire = 0.5 * scene.screen.wire_diameter_mm;
             let bottom = 1e-3 * (wire + scene.motion.amplitude_mm[2] + clearance_mm);
             packing::random(&radii, &counts, &space(scene, bottom, *solid_fraction), scene.seed)
+                .map_err(|source| scene.at("packing.solid_fraction", source))
         }
         Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
             let kept = source.beds.map(|beds| kept(scene, classes, &counts, beds));
+            let lock = kept.as_deref().map(lock_of).unwrap_or_default();
+            let _alone = lock.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(file) = kept.as_ref().filter(|file| file.exists()) {
                 return packing::from_file(file, &radii, &densities);
             }
             let space = space(scene, 1e-3 * floor_height_mm, *solid_fraction);
-            let loose = packing::random(&radii, &counts, &space, scene.seed)?;
+            let loose = packing::random(&radii, &counts, &space, scene.seed)
+                .map_err(|source| scene.at("packing.solid_fraction", source))?;
             let Some(file) = kept else { return Ok(loose) };
-            if source.tell {
-                eprintln!(
-                    "settling {} spheres in the feed bin; kept for the next run",
-                    loose.len()
-                );
-            }
-            let settled =
-                settle(scene, classes, &loose, time_step, source.threads, *settle_at_most)?;
+            let half = file.with_extension("settling");
+            let how = Settling {
+                time_step,
+                threads: source.threads,
+                at_most: *settle_at_most,
+                file: &half,
+                every: source.checkpoint_every,
+                stop: source.stop,
+                tell: source.tell,
+            };
+            make_folder(&file)?;
+            let settled = settle(scene, classes, &loose, &how)?;
             keep(&file, classes, &settled)?;
+            // Nothing is lost where it cannot be removed: the bed is looked for first.
+            let _ = fs::remove_file(&half);
             Ok(settled)
         }
     }
@@ -112,42 +132,6 @@ fn space(scene: &Scene, bottom: f64, solid_fraction: f64) -> Space {
     Space { radius, bottom, top: 1e-3 * scene.screen.height_mm, solid_fraction }
 }
 
-/// Lets the loose spheres fall onto the floor of the bin until they are at rest.
-fn settle(
-    scene: &Scene,
-    classes: &[Class],
-    loose: &[Placed],
-    time_step: f64,
-    threads: usize,
-    at_most: f64,
-) -> Result<Vec<Placed>, SceneError> {
-    let mut particles = Particles::new(classes.to_vec())?;
-    for one in loose {
-        particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;
-    }
-    let mass = |class: u16| classes[usize::from(class)].mass();
-    let fall = |class: u16| classes[usize::from(class)].radius();
-    let gravity = DVec3::from_array(scene.gravity);
-    let unit: f64 =
-        loose.iter().map(|one| mass(one.class) * gravity.length() * fall(one.class)).sum();
-    let floor = apparatus::floor(scene).unwrap_or(0.0);
-    let walls = MeshWalls(apparatus::bin(scene, floor)?);
-    let settings = Settings { gravity, threads, ..Settings::new(time_step) };
-    let contact = laws::contact(scene, classes)?;
-    let mut simulation = Simulation::new(particles, contact, walls, settings)?;
-    while simulation.time() < at_most {
-        simulation.advance(LOOK)?;
-        let energy = simulation.particles().kinetic_energy();
-        if energy < AT_REST * unit && simulation.time() > 0.1 {
-            break;
-        }
-    }
-    let mut all: Vec<_> = simulation.particles().iter().collect();
-    all.sort_by_key(|particle| particle.id);
-    let placed = |p: &pendular::dem::Particle| Placed { class: p.class, position: p.position };
-    Ok(all.iter().map(placed).collect())
-}
-
 /// The file of a settled bed: its name is a hash of all that made it.
 fn kept(scene: &Scene, classes: &[Class], counts: &[u64], beds: &Path) -> PathBuf {
     let made_of = format!(
@@ -172,11 +156,15 @@ fn fnv(bytes: &[u8]) -> u64 {
         .fold(0xcbf2_9ce4_8422_2325, |hash, &b| (hash ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
 }
 
+fn make_folder(file: &Path) -> Result<(), SceneError> {
+    let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
+    fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).map_err(fail)
+}
+
 /// Writes a bed beside its place and moves it there, so that no half file is ever read.
 fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneError> {
     let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
-    let folder = file.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(fail)?;
+    make_folder(file)?;
     let part = file.with_extension(format!("part-{}", std::process::id()));
     let mut out = std::io::BufWriter::new(fs::File::create(&part).map_err(fail)?);
     let mut write = || -> std::io::Result<()> {
@@ -196,6 +184,8 @@ fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneE
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]

@@ -3,6 +3,7 @@
 pub(crate) mod apparatus;
 mod bed;
 mod laws;
+mod settle;
 
 use std::path::Path;
 
@@ -53,7 +54,8 @@ pub(crate) fn build(scene: &Scene, source: &Source<'_>) -> Result<Built, SceneEr
     let classes = classes(scene)?;
     let contact = laws::contact(scene, &classes)?;
     let dry_limit = Limit::packing(&classes, &contact.stability(&classes)).time_step;
-    let dry_step = scene.time_step.unwrap_or(SHARE * dry_limit);
+    // The bed settles at a stable step even where the run is to be unstable.
+    let dry_step = scene.time_step.filter(|&step| step <= dry_limit).unwrap_or(SHARE * dry_limit);
     let placed = bed::place(scene, &classes, dry_step, source)?;
     let mut particles = Particles::new(classes.clone())?;
     for one in &placed {

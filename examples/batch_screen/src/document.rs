@@ -1,0 +1,176 @@
+//! TOML documents, and values set in them from outside.
+
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
+
+use crate::error::SceneError;
+use crate::place::{Origin, Place, line_at};
+
+/// Reads a document; what is wrong is named by key and place.
+pub(crate) fn read<T: DeserializeOwned>(text: &str, origin: &Origin) -> Result<T, SceneError> {
+    let document = toml::Deserializer::parse(text).map_err(|e| syntax(text, origin, &e))?;
+    serde_path_to_error::deserialize(document).map_err(|e| {
+        let message = e.inner().message().trim_end();
+        let key = key_of(&e.path().to_string(), message);
+        SceneError::Syntax { place: origin.place(&key), key, message: plain(message) }
+    })
+}
+
+fn syntax(text: &str, origin: &Origin, error: &toml::de::Error) -> SceneError {
+    let mut place = origin.place("");
+    place.line = error.span().map(|span| line_at(text, span.start));
+    let source = place.line.and_then(|line| text.lines().nth(line - 1)).unwrap_or_default();
+    let key = source.split('=').next().unwrap_or_default().trim().to_owned();
+    let message = format!("{}; allowed: TOML", error.message().trim_end());
+    SceneError::Syntax { place, key, message }
+}
+
+/// The key that is meant: a table's error names the field only in its message.
+fn key_of(path: &str, message: &str) -> String {
+    let field = ["unknown field `", "missing field `", "duplicate field `"]
+        .iter()
+        .find_map(|start| message.strip_prefix(start)?.split('`').next());
+    match (path, field) {
+        (".", Some(field)) => field.to_owned(),
+        (path, Some(field)) if !path.ends_with(field) => format!("{path}.{field}"),
+        (path, _) => path.to_owned(),
+    }
+}
+
+/// A message of serde in the words of scene files.
+fn plain(message: &str) -> String {
+    let message = message.replace(", expected one of ", "; allowed: ");
+    let message = message.replace(", expected ", "; allowed: ");
+    let types = [
+        ("allowed: f64", "allowed: a number"),
+        ("allowed: u64", "allowed: a whole number from 0"),
+        ("allowed: u32", "allowed: a whole number from 0"),
+        ("allowed: a string", "allowed: a text"),
+        ("allowed: a sequence", "allowed: a list"),
+        ("allowed: a map", "allowed: a table"),
+    ];
+    let told = types.iter().fold(message, |m, (from, to)| m.replace(from, to));
+    if told.starts_with("missing field") {
+        format!("{told}; allowed: a value for it")
+    } else {
+        told
+    }
+}
+
+/// A value that takes the place of a document's.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Set {
+    /// Dotted key, such as `liquid.viscosity` or `classes[0].count`.
+    pub(crate) key: String,
+    pub(crate) value: Value,
+    /// Where it was said.
+    pub(crate) place: Place,
+}
+
+impl Set {
+    /// Reads `KEY=VALUE` of the command line; a value that is no TOML is a text.
+    pub(crate) fn parse(argument: &str) -> Result<Self, SceneError> {
+        let place = Place::option("--set");
+        let Some((key, value)) = argument.split_once('=').filter(|(key, _)| !key.trim().is_empty())
+        else {
+            let (key, value) = (String::from("set"), format!("`{argument}`"));
+            return Err(SceneError::Value { place, key, value, allowed: "KEY=VALUE".into() });
+        };
+        let (key, value) = (key.trim().to_owned(), value.trim());
+        let value = value.parse().unwrap_or_else(|_| Value::String(value.to_owned()));
+        Ok(Self { key, value, place })
+    }
+}
+
+/// The text of a document with values set in it.
+pub(crate) fn with(text: &str, origin: &mut Origin, sets: &[Set]) -> Result<String, SceneError> {
+    if sets.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let mut root = Value::Table(read::<Table>(text, origin)?);
+    for set in sets {
+        put(&mut root, set)?;
+        origin.give(&set.key, set.place.clone());
+    }
+    let unwritable = |e: toml::ser::Error| SceneError::Syntax {
+        place: origin.place(""),
+        key: ".".into(),
+        message: e.to_string(),
+    };
+    toml::to_string(&root).map_err(unwritable)
+}
+
+fn put(root: &mut Value, set: &Set) -> Result<(), SceneError> {
+    let mut at = root;
+    for step in set.key.replace('[', ".[").split('.') {
+        at = inside(at, step).map_err(|allowed| SceneError::Value {
+            place: set.place.clone(),
+            key: set.key.clone(),
+            value: format!("`{step}`"),
+            allowed,
+        })?;
+    }
+    *at = set.value.clone();
+    Ok(())
+}
+
+/// What a step of a key leads to, or what it could have been.
+fn inside<'v>(at: &'v mut Value, step: &str) -> Result<&'v mut Value, String> {
+    let index = step.strip_prefix('[').and_then(|s| s.strip_suffix(']'));
+    match (at, index) {
+        (Value::Array(list), index) => {
+            let allowed = format!("an index in brackets, below {}", list.len());
+            let index = index.and_then(|text| text.parse::<usize>().ok());
+            index.and_then(|k| list.get_mut(k)).ok_or(allowed)
+        }
+        (Value::Table(table), index) => {
+            if index.is_some() || step.is_empty() {
+                return Err(table.keys().cloned().collect::<Vec<_>>().join(", "));
+            }
+            Ok(table.entry(step).or_insert_with(|| Value::Table(Table::new())))
+        }
+        _ => Err("nothing: this is a single value".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    const TEXT: &str = "a = 1\n[t]\nb = \"x\"\n[[l]]\nc = 1\n[[l]]\nc = 2\n";
+
+    fn set(arguments: &[&str]) -> Result<Table, SceneError> {
+        let sets: Vec<Set> =
+            arguments.iter().map(|a| Set::parse(a)).collect::<Result<_, SceneError>>()?;
+        let mut origin = Origin::new(Path::new("a.toml"), TEXT);
+        let text = with(TEXT, &mut origin, &sets)?;
+        Ok(text.parse().unwrap())
+    }
+
+    #[test]
+    fn values_are_set_by_dotted_key() {
+        let table = set(&["t.b=lambert", "l[1].c=[1, 2.5]", "t.new.deep=true", "a=1e-3"]).unwrap();
+        assert_eq!(table["t"]["b"].as_str(), Some("lambert"));
+        assert_eq!(table["l"][1]["c"][1].as_float(), Some(2.5));
+        assert_eq!(table["l"][0]["c"].as_integer(), Some(1));
+        assert_eq!(table["t"]["new"]["deep"].as_bool(), Some(true));
+        assert_eq!(table["a"].as_float(), Some(1e-3));
+    }
+
+    #[test]
+    fn what_cannot_be_set_says_why() {
+        for (argument, wanted) in [
+            ("a", "KEY=VALUE"),
+            ("=3", "KEY=VALUE"),
+            ("l[2].c=1", "below 2"),
+            ("a.b=1", "single value"),
+            ("t[0]=1", "allowed: b"),
+            ("l.c=1", "below 2"),
+        ] {
+            let said = set(&[argument]).unwrap_err().to_string();
+            assert!(said.contains(wanted) && said.contains("--set"), "{argument}: {said}");
+        }
+    }
+}

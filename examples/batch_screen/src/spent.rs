@@ -1,0 +1,83 @@
+//! Where the time of a run went.
+
+use std::time::Duration;
+
+use pendular::dem::Profile;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+/// Computing time by what it was for; parallel parts are summed over the threads.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(crate) struct Spent {
+    neighbours: Duration,
+    pairs: Duration,
+    walls: Duration,
+    bridges: Duration,
+    integration: Duration,
+    pub(crate) output: Duration,
+}
+
+impl Spent {
+    /// The same with what a simulation has spent since it was set up.
+    pub(crate) fn with(self, profile: &Profile) -> Self {
+        Self {
+            neighbours: self.neighbours + profile.neighbours,
+            pairs: self.pairs + profile.pairs,
+            walls: self.walls + profile.walls,
+            bridges: self.bridges + profile.settling,
+            integration: self.integration + profile.integration,
+            output: self.output,
+        }
+    }
+
+    fn parts(&self) -> [(&'static str, f64); 6] {
+        [
+            ("neighbours", self.neighbours),
+            ("pairs", self.pairs),
+            ("walls", self.walls),
+            ("bridges", self.bridges),
+            ("integration", self.integration),
+            ("output", self.output),
+        ]
+        .map(|(name, time)| (name, time.as_secs_f64()))
+    }
+
+    fn shares(&self) -> [(&'static str, f64); 6] {
+        let all: f64 = self.parts().iter().map(|(_, seconds)| seconds).sum();
+        let share = |seconds: f64| if all > 0.0 { 100.0 * seconds / all } else { 0.0 };
+        self.parts().map(|(name, seconds)| (name, share(seconds)))
+    }
+
+    /// Seconds by name.
+    pub(crate) fn seconds(&self) -> Map<String, Value> {
+        self.parts().map(|(name, seconds)| (name.to_owned(), json!(seconds))).into_iter().collect()
+    }
+
+    /// Percent of the sum by name.
+    pub(crate) fn percent(&self) -> Map<String, Value> {
+        self.shares().map(|(name, share)| (name.to_owned(), json!(share))).into_iter().collect()
+    }
+
+    /// One line for people.
+    pub(crate) fn line(&self) -> String {
+        let told = self.shares().map(|(name, share)| format!("{name} {share:.0} %"));
+        format!("computing time: {}", told.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_make_a_whole() {
+        let second = Duration::from_secs(1);
+        let profile = Profile { pairs: second, walls: 2 * second, ..Profile::default() };
+        let spent = Spent { output: second, ..Spent::default() }.with(&profile);
+        let percent = spent.percent();
+        assert_eq!(percent["walls"], 50.0);
+        let all: f64 = percent.values().filter_map(Value::as_f64).sum();
+        assert!((all - 100.0).abs() < 1e-12);
+        assert!(spent.line().contains("output 25 %"));
+    }
+}

@@ -1,0 +1,220 @@
+//! Many runs of one scene with other values: side by side, taken up again, in one table.
+
+mod emit;
+mod plan;
+mod table;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use self::plan::{Plan, Planned};
+use self::table::{Sheet, Status};
+use crate::checkpoint::Checkpoint;
+use crate::cli::{Emit, How, RunArgs, SweepArgs};
+use crate::commands;
+use crate::error::{RunError, SceneError};
+use crate::place::Place;
+
+/// A commented sweep file to start from.
+pub(crate) const SAMPLE: &str = include_str!("sample.toml");
+
+/// What a folder holds of a run.
+enum Found {
+    Nothing,
+    /// Not at its end.
+    Part,
+    /// Done, with its page.
+    Whole,
+}
+
+/// A sweep that is being carried out.
+struct Sweep<'a> {
+    plan: &'a Plan,
+    args: &'a SweepArgs,
+    out: &'a Path,
+    beds: PathBuf,
+    how: How,
+    stop: Arc<AtomicBool>,
+}
+
+/// Runs a sweep, or prints the commands for it.
+pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
+    let plan = Plan::read(&args.file)?;
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&plan.name));
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let jobs = args.jobs.max(1);
+    let threads = args.how.threads.unwrap_or((cores / jobs).max(1));
+    match args.emit {
+        Some(Emit::List) => print!("{}", emit::list(&plan, args, &out, threads)),
+        Some(Emit::Slurm) => print!("{}", emit::slurm(&plan, args, &out, threads)),
+        None => {
+            let beds = args.beds.clone().unwrap_or_else(|| out.join("beds"));
+            let how = How { threads: Some(threads), ..args.how.clone() };
+            let stop = commands::stop_flag();
+            let sweep = Sweep { plan: &plan, args, out: &out, beds, how, stop };
+            std::fs::create_dir_all(&out)
+                .map_err(|source| RunError::Write { path: out.clone(), source })?;
+            return match args.only {
+                Some(number) => sweep.one(number),
+                None => sweep.all(jobs),
+            };
+        }
+    }
+    Ok(())
+}
+
+impl Sweep<'_> {
+    /// Runs one run only and leaves the table alone, for those who run them side by side.
+    fn one(&self, number: usize) -> Result<(), RunError> {
+        let runs = &self.plan.runs;
+        let Some(run) = number.checked_sub(1).and_then(|k| runs.get(k)) else {
+            let (place, key) = (Place::option("--only"), String::from("only"));
+            let (value, allowed) = (number.to_string(), format!("1 to {}", runs.len()));
+            return Err(SceneError::Value { place, key, value, allowed }.into());
+        };
+        match self.found(run)? {
+            Found::Whole => Ok(()),
+            found => self.go(run, &found, &self.how),
+        }
+    }
+
+    /// Runs all that is not done yet.
+    fn all(&self, jobs: usize) -> Result<(), RunError> {
+        let mut sheet = Sheet::new(self.out, self.plan)?;
+        let mut left = Vec::new();
+        for (row, run) in self.plan.runs.iter().enumerate() {
+            let folder = self.out.join(&run.name);
+            match self.found(run) {
+                Ok(Found::Whole) => sheet.note(row, &folder, Status::Finished, Some(0), ""),
+                Ok(Found::Part) if self.args.gather => {
+                    sheet.note(row, &folder, Status::Interrupted, None, "");
+                }
+                Ok(_) => left.push(row),
+                Err(error) => sheet.note(row, &folder, Status::Failed, Some(1), &error.to_string()),
+            }
+        }
+        sheet.write()?;
+        let done = self.plan.runs.len() - left.len();
+        if !self.args.gather {
+            self.tell(&format!("{} runs, {done} of them done", self.plan.runs.len()));
+            sheet = self.side_by_side(&left, sheet, jobs)?;
+        }
+        self.tell(&format!("table in {}", self.out.join("sweep.csv").display()));
+        let (failed, waiting) = (sheet.count(Status::Failed), sheet.count(Status::Waiting));
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(RunError::SweepStopped {
+                waiting: waiting + sheet.count(Status::Interrupted),
+            });
+        }
+        if failed > 0 && !self.args.gather {
+            return Err(RunError::Sweep { failed, runs: self.plan.runs.len() });
+        }
+        Ok(())
+    }
+
+    fn side_by_side(&self, left: &[usize], sheet: Sheet, jobs: usize) -> Result<Sheet, RunError> {
+        let next = AtomicUsize::new(0);
+        let sheet = Mutex::new((sheet, None));
+        let work = || {
+            while let Some(&row) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if self.stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let run = &self.plan.runs[row];
+                let done = self.safely(run);
+                let mut held = sheet.lock().unwrap_or_else(PoisonError::into_inner);
+                let (sheet, failed) = &mut *held;
+                self.book(sheet, row, run, done);
+                *failed = sheet.write().err().or(failed.take());
+            }
+        };
+        std::thread::scope(|scope| {
+            (0..jobs.min(left.len())).for_each(|_| drop(scope.spawn(work)));
+        });
+        let (sheet, failed) = sheet.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failed.map_or(Ok(sheet), Err)
+    }
+
+    /// One run; what goes wrong in it, whatever it is, ends no other.
+    fn safely(&self, run: &Planned) -> Result<(), (u8, String)> {
+        let quiet = How { quiet: true, json: false, ..self.how.clone() };
+        let go = || self.go(run, &self.found(run)?, &quiet);
+        match catch_unwind(AssertUnwindSafe(go)) {
+            Ok(done) => done.map_err(|error| (error.code(), error.to_string())),
+            Err(_) => Err((101, "the run broke down; its message is on stderr".to_owned())),
+        }
+    }
+
+    fn book(&self, sheet: &mut Sheet, row: usize, run: &Planned, done: Result<(), (u8, String)>) {
+        let folder = self.out.join(&run.name);
+        let (status, code, message) = match done {
+            Ok(()) => (Status::Finished, 0, String::new()),
+            Err((130, message)) => (Status::Interrupted, 130, message),
+            Err((code, message)) => (Status::Failed, code, message),
+        };
+        sheet.note(row, &folder, status, Some(code), &message);
+        let tail = match status {
+            Status::Finished => {
+                let (retained, time) =
+                    (sheet.cell(row, "retained"), sheet.cell(row, "wall_time_s"));
+                format!("fraction retained {retained}, {time} s")
+            }
+            _ => message,
+        };
+        let done = self.plan.runs.len() - sheet.count(Status::Waiting);
+        let all = self.plan.runs.len();
+        if self.how.json {
+            let line = serde_json::json!({
+                "run": run.name, "status": status.name(), "exit": code, "message": tail,
+                "done": done, "runs": all,
+            });
+            println!("{line}");
+        }
+        self.tell(&format!("[{done}/{all}] {}: {}: {tail}", run.name, status.name()));
+    }
+
+    fn tell(&self, text: &str) {
+        if !(self.how.quiet || self.how.json) {
+            println!("{text}");
+        }
+    }
+
+    /// What the folder of a run holds; an error where it is something else.
+    fn found(&self, run: &Planned) -> Result<Found, RunError> {
+        let folder = self.out.join(&run.name);
+        if !folder.join("checkpoint.bin").exists() {
+            return Ok(Found::Nothing);
+        }
+        let checkpoint = Checkpoint::read(&folder)?;
+        let same = checkpoint.scene == run.text
+            && checkpoint.seed == run.seed
+            && checkpoint.time.to_bits() == run.time.to_bits();
+        if !same {
+            return Err(RunError::OtherRun { folder });
+        }
+        let at_end = checkpoint.core.time(checkpoint.time_step);
+        let done = at_end > run.time - 0.75 * checkpoint.time_step;
+        let page = folder.join("report.html").exists();
+        Ok(if done && page { Found::Whole } else { Found::Part })
+    }
+
+    fn go(&self, run: &Planned, found: &Found, how: &How) -> Result<(), RunError> {
+        let folder = self.out.join(&run.name);
+        if matches!(found, Found::Part | Found::Whole) {
+            return commands::resume_until(&folder, how, Arc::clone(&self.stop));
+        }
+        let args = RunArgs {
+            scene: self.plan.scene.clone(),
+            time: Some(run.time),
+            out: Some(folder),
+            beds: Some(self.beds.clone()),
+            seed: Some(run.seed),
+            set: run.sets.iter().map(|set| format!("{}={}", set.key, set.value)).collect(),
+            how: how.clone(),
+            ..RunArgs::default()
+        };
+        commands::run_until(&args, Arc::clone(&self.stop))
+    }
+}

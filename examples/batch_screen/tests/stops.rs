@@ -1,0 +1,133 @@
+//! Runs that stop before their end: told to, or because their state cannot be.
+
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
+mod common;
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Output, Stdio};
+
+use common::{program, run, small, summary, terminate, text};
+
+fn faulty(folder: &Path, out: &str, options: &[&str]) -> Output {
+    let mut args = vec!["run", "small.toml", "--time", "0.05", "--threads", "1", "--out", out];
+    args.extend(options);
+    run(folder, &args)
+}
+
+#[test]
+fn a_state_that_cannot_be_stops_the_run_and_keeps_the_last_good_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    for (out, options, wanted) in [
+        // The step is twelve hundred times the one that is refused otherwise.
+        ("step", &["--dt", "1e-3", "--allow-unstable"][..], "time step"),
+        ("overlap", &["--set", "guard.overlap_share=0.0012"], "guard.overlap_share"),
+        ("speed", &["--set", "guard.speed=0.2"], "guard.speed"),
+    ] {
+        let done = faulty(folder.path(), out, options);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(3), "{out}: {said}");
+        for word in ["the run stopped at t = ", "particle ", " m", wanted, "what to do", "is kept"]
+        {
+            assert!(said.contains(word), "{out}: `{word}` is not in: {said}");
+        }
+        let out = folder.path().join(out);
+        assert!(out.join("report.html").exists());
+        let summary = summary(&out);
+        let told = summary["stopped_by_guard"].as_str().unwrap();
+        assert!(said.contains(told.split(": ").nth(1).unwrap()), "{told}: {said}");
+        // The rows go on to the fault; the checkpoint lies before it and can be read.
+        let rows = fs::read_to_string(out.join("retained.csv")).unwrap();
+        assert!(rows.lines().count() > 2, "{rows}");
+        let again = run(folder.path(), &["resume", out.to_str().unwrap()]);
+        assert_eq!(again.status.code(), Some(3), "{}", text(&again.stderr));
+    }
+}
+
+#[test]
+fn the_checkpoint_before_a_fault_survives_it() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    // A checkpoint at every occasion: none of them is of the state that stops the run.
+    let often = ["--set", "guard.overlap_share=0.0012", "--checkpoint-every", "1e-9"];
+    let done = faulty(folder.path(), "often", &often);
+    assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
+    let stopped = summary(&folder.path().join("often"))["steps"].as_u64().unwrap();
+    let again = run(folder.path(), &["resume", "often"]);
+    assert_eq!(again.status.code(), Some(3), "{}", text(&again.stderr));
+    let said = text(&again.stdout);
+    let from = said.lines().find_map(|line| line.strip_prefix("going on from t = ")).unwrap();
+    let from: f64 = from.trim_end_matches(" s").parse().unwrap();
+    assert!(from > 0.0 && from < 5e-6 * stopped as f64, "{from}");
+}
+
+const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+const FREE: [&str; 4] = ["--set", "guard.overlap_share=1", "--set", "guard.speed=1e3"];
+
+#[test]
+fn spheres_that_leave_through_walls_stop_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    // A frame far away from where it should be, and gravity to the side.
+    let triangle = "solid far\nfacet normal 0 0 1\nouter loop\nvertex 0 0 -500\nvertex 1 0 -500\n\
+                    vertex 0 1 -500\nendloop\nendfacet\nendsolid far\n";
+    fs::write(folder.path().join("far.stl"), triangle).unwrap();
+    let far = "parts=[{name=\"frame\", stl=\"far.stl\", material=\"steel\"}]";
+    let aside = "gravity=[-60, 0, 0]";
+    let soft = "contact.stiffness=100";
+    for (out, sets, wanted) in [
+        ("out-of-it", &[far, aside][..], "has left the apparatus at (-0.0"),
+        ("frame", &[soft, "gravity=[-900, 0, 0]"], "has left through the frame"),
+        ("wires", &[soft, "gravity=[0, 0, -900]"], "has left through the wires"),
+    ] {
+        let mut options = FREE.to_vec();
+        options.extend(["--set", LOOSE]);
+        sets.iter().for_each(|set| options.extend(["--set", *set]));
+        let done = faulty(folder.path(), out, &options);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(3), "{out}: {said}");
+        assert!(said.contains(wanted) && said.contains(" mm)"), "{out}: {said}");
+    }
+    // The same, where it is meant.
+    let count = ["--set", LOOSE, "--set", far, "--set", aside, "--set", "guard.escapes=count"];
+    let done = faulty(folder.path(), "counted", &count);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(summary(&folder.path().join("counted"))["escaped"].as_u64().unwrap() > 0);
+}
+
+/// Starts a run and waits until it says `wanted` on stderr, which stays open.
+fn until(folder: &Path, args: &[&str], wanted: &str) -> (Child, impl BufRead + use<>) {
+    let mut child = program()
+        .current_dir(folder)
+        .args(args)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.contains(wanted) {
+        line.clear();
+        assert!(said.read_line(&mut line).unwrap() > 0, "it never said {wanted}");
+    }
+    (child, said)
+}
+
+#[test]
+fn a_bed_that_settles_can_be_stopped_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = ["run", "demo", "--beds", "beds"];
+    let (mut child, _said) = until(folder.path(), &run, "settling 400 spheres");
+    terminate(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let kept: Vec<_> = fs::read_dir(folder.path().join("beds")).unwrap().collect();
+    assert_eq!(kept.len(), 1);
+    assert!(!folder.path().join("out").exists(), "the run itself has not begun");
+    let mut child =
+        until(folder.path(), &run, "going on with the settling of the bed from t = 0.0");
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
