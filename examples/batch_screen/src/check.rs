@@ -64,7 +64,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), SceneError> {
     for (axis, g) in scene.gravity.iter().enumerate() {
         check.within(&format!("gravity[{axis}]"), *g, -1e3, 1e3)?;
     }
-    check.within("guard.overlap_share", scene.guard.overlap_share, 1e-3, 1.0)?;
+    check.within("guard.overlap_share", scene.guard.overlap_share, 1e-3, 10.0)?;
     scene.guard.speed.map_or(Ok(()), |speed| check.positive("guard.speed", speed))?;
     materials(scene, &check)?;
     classes(scene, &check)?;

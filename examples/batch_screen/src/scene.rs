@@ -63,7 +63,7 @@ pub(crate) struct Scene {
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct GuardSpec {
-    /// Largest overlap, as a share of the smaller radius.
+    /// Largest overlap, as a share of the smaller radius; nothing reaches 10.
     pub(crate) overlap_share: f64,
     /// Largest speed, m/s; from drop height and wall speed where it is left out.
     pub(crate) speed: Option<f64>,

@@ -52,7 +52,7 @@ fn the_checkpoint_before_a_fault_survives_it() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();
     // A checkpoint at every occasion: none of them is of the state that stops the run.
-    let often = ["--set", "guard.overlap_share=0.0012", "--checkpoint-every", "1e-9"];
+    let often = ["--set", "guard.speed=0.05", "--checkpoint-every", "1e-9"];
     let done = faulty(folder.path(), "often", &often);
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
     let stopped = summary(&folder.path().join("often"))["steps"].as_u64().unwrap();
@@ -65,7 +65,7 @@ fn the_checkpoint_before_a_fault_survives_it() {
 }
 
 const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
-const FREE: [&str; 4] = ["--set", "guard.overlap_share=1", "--set", "guard.speed=1e3"];
+const FREE: [&str; 4] = ["--set", "guard.overlap_share=10", "--set", "guard.speed=1e3"];
 
 #[test]
 fn spheres_that_leave_through_walls_stop_the_run() {
@@ -126,7 +126,7 @@ fn a_bed_that_settles_can_be_stopped_and_goes_on() {
     let kept: Vec<_> = fs::read_dir(folder.path().join("beds")).unwrap().collect();
     assert_eq!(kept.len(), 1);
     assert!(!folder.path().join("out").exists(), "the run itself has not begun");
-    let mut child =
+    let (mut child, _said) =
         until(folder.path(), &run, "going on with the settling of the bed from t = 0.0");
     child.kill().unwrap();
     child.wait().unwrap();

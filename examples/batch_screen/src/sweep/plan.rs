@@ -187,7 +187,9 @@ fn grid(table: &Table, origin: &Origin) -> Result<Vec<Vec<Set>>, SceneError> {
         let sets: Vec<Set> = list.iter().enumerate().map(set).collect();
         combinations = combinations
             .iter()
-            .flat_map(|before| sets.iter().map(|one| [before.as_slice(), &[one.clone()]].concat()))
+            .flat_map(|before| {
+                sets.iter().map(|one| [before.as_slice(), std::slice::from_ref(one)].concat())
+            })
             .collect();
     }
     Ok(combinations)
