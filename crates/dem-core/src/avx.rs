@@ -70,6 +70,25 @@ impl Lane for Avx {
     }
 
     #[inline(always)]
+    fn rows<T>(permit: V3, from: &[T; 4], read: impl Fn(&T) -> [f64; 4]) -> [Self; 4] {
+        let avx = permit.avx;
+        let [a, b, c, d] = [read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])];
+        let a = avx._mm256_setr_pd(a[0], a[1], a[2], a[3]);
+        let b = avx._mm256_setr_pd(b[0], b[1], b[2], b[3]);
+        let c = avx._mm256_setr_pd(c[0], c[1], c[2], c[3]);
+        let d = avx._mm256_setr_pd(d[0], d[1], d[2], d[3]);
+        let (low, high) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b));
+        let (low_too, high_too) = (avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d));
+        // No closures: what is not inlined could not use the registers.
+        [
+            Self { permit, all: avx._mm256_permute2f128_pd::<0x20>(low, low_too) },
+            Self { permit, all: avx._mm256_permute2f128_pd::<0x20>(high, high_too) },
+            Self { permit, all: avx._mm256_permute2f128_pd::<0x31>(low, low_too) },
+            Self { permit, all: avx._mm256_permute2f128_pd::<0x31>(high, high_too) },
+        ]
+    }
+
+    #[inline(always)]
     fn unpack(self) -> [f64; 4] {
         pulp::cast(self.all)
     }

@@ -215,9 +215,16 @@ where
     #[inline(always)]
     fn idle(&self, encounter: &Encounter, column: &mut Self::Column) -> bool {
         let idle = encounter.gap >= 0.0;
-        // A contact ends seldom: the processor foresees this branch.
-        if idle & (column.stretch != DVec3::ZERO || size_of::<N::Memory>() > 0) {
-            *column = Spring::default();
+        if size_of::<N::Memory>() > 0 {
+            if idle {
+                *column = Spring::default();
+            }
+        } else {
+            // Bits, so that no branch comes of it: no processor foresees which pairs touch.
+            let keep = u64::from(!idle).wrapping_neg();
+            let kept = |stretch: f64| f64::from_bits(stretch.to_bits() & keep);
+            let DVec3 { x, y, z } = column.stretch;
+            column.stretch = DVec3::new(kept(x), kept(y), kept(z));
         }
         idle
     }

@@ -36,6 +36,21 @@ pub trait Lane:
     /// Reads a number out of each.
     fn pack<T>(permit: Self::Permit, from: &Self::Each<T>, read: impl Fn(&T) -> f64) -> Self;
 
+    /// Reads four numbers that lie one behind the other out of each.
+    #[inline(always)]
+    fn rows<T>(
+        permit: Self::Permit,
+        from: &Self::Each<T>,
+        read: impl Fn(&T) -> [f64; 4],
+    ) -> [Self; 4] {
+        [
+            Self::pack(permit, from, |t| read(t)[0]),
+            Self::pack(permit, from, |t| read(t)[1]),
+            Self::pack(permit, from, |t| read(t)[2]),
+            Self::pack(permit, from, |t| read(t)[3]),
+        ]
+    }
+
     /// The numbers.
     fn unpack(self) -> Self::Each<f64>;
 
@@ -328,6 +343,9 @@ mod tests {
         assert_eq!(one(|a, b| Lane::most(b, a)), four(|a, b| b.most(a)));
         assert_eq!(one(|a, b| Lane::sqrt(a * a + b)), four(|a, b| (a * a + b).sqrt()));
         assert_eq!(one(|a, b| a.if_less(b, -a, b)), four(|a, b| a.if_less(b, -a, b)));
+        let rows = [a, b, [2.0; 4], [0.0, 1.0, 2.0, 3.0]];
+        let columns = L::rows(permit, &L::each(|k| rows[k]), |row| *row).map(L::unpack);
+        assert!((0..16).all(|k| columns[k / 4][k % 4].to_bits() == rows[k % 4][k / 4].to_bits()));
         assert!(pack(&a).any_less(pack(&b)) && !pack(&a).any_less(pack(&a)));
         let (nan, two) = (L::splat(permit, f64::NAN), L::splat(permit, 2.0));
         assert_eq!((nan.least(two).unpack(), nan.most(two).unpack()), ([2.0; 4], [2.0; 4]));

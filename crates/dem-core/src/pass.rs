@@ -18,6 +18,7 @@ use crate::{Encounter, Load, Pair, PairTerm, Partner};
 const TILE: usize = 128;
 
 /// What all chunks read in one step.
+#[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
     pub(crate) classes: &'a [Class],
     pub(crate) places: &'a [Place],
@@ -54,6 +55,29 @@ impl<'a> View<'a> {
         self.encounter(entry, (q.x - p.x).length() - (p.r + q.r))
     }
 
+    /// Centres and radii of one side of pairs.
+    #[inline(always)]
+    fn spheres<L: Lane>(
+        &self,
+        permit: L::Permit,
+        entries: &L::Each<Entry>,
+        side: usize,
+    ) -> (Vector<L>, L) {
+        let places = L::each(|k| &self.places[entries[k][side] as usize]);
+        let [x, y, z, r] = L::rows(permit, &places, |p| [p.x.x, p.x.y, p.x.z, p.r]);
+        (Vector { x, y, z }, r)
+    }
+
+    /// How far the particles of pairs side by side are from each other.
+    #[inline(always)]
+    fn distances<L: Lane>(&self, permit: L::Permit, entries: &L::Each<Entry>) -> Distance<L> {
+        let (x, first) = self.spheres::<L>(permit, entries, 0);
+        let (y, second) = self.spheres::<L>(permit, entries, 1);
+        let line = y - x;
+        let distance = line.dot(line).sqrt();
+        Distance { line, distance, radii: [first, second], gap: distance - (first + second) }
+    }
+
     /// Pairs side by side.
     #[inline(always)]
     pub(crate) fn pairs<L: Lane, const ROLLS: bool>(
@@ -62,18 +86,12 @@ impl<'a> View<'a> {
         entries: L::Each<Entry>,
         apart: bool,
     ) -> Pairs<'a, L> {
-        let places = |side: usize| L::each(|k| &self.places[entries[k][side] as usize]);
         let velocities = |side: usize| L::each(|k| &self.velocities[entries[k][side] as usize]);
-        let (p, q) = (places(0), places(1));
-        let radii = [L::pack(permit, &p, |p| p.r), L::pack(permit, &q, |q| q.r)];
-        let line = Vector::<L>::pack(permit, &q, |q| q.x) - Vector::<L>::pack(permit, &p, |p| p.x);
-        let distance = line.dot(line).sqrt();
-        let gap = distance - (radii[0] + radii[1]);
+        let Distance { line, distance, radii, gap } = self.distances::<L>(permit, &entries);
         let (p, q) = (velocities(0), velocities(1));
-        let velocity =
-            Vector::<L>::pack(permit, &p, |p| p.v) - Vector::<L>::pack(permit, &q, |q| q.v);
-        let (wi, wj) =
-            (Vector::<L>::pack(permit, &p, |p| p.w), Vector::<L>::pack(permit, &q, |q| q.w));
+        let (vi, wi) = motion::<L>(permit, &p);
+        let (vj, wj) = motion::<L>(permit, &q);
+        let velocity = vi - vj;
         let half = line + velocity * L::splat(permit, self.lag);
         let half_step_normal = half * (L::splat(permit, 1.0) / half.dot(half).sqrt());
         // The contact lies in the middle of gap or overlap, so that li + lj is the distance.
@@ -109,6 +127,23 @@ impl<'a> View<'a> {
         }
         Pairs { view: self, entries, apart, permit, geometry }
     }
+}
+
+/// How far two particles are from each other.
+struct Distance<L> {
+    /// From centre to centre, m.
+    line: Vector<L>,
+    distance: L,
+    radii: [L; 2],
+    gap: L,
+}
+
+/// Velocity and spin of particles side by side.
+#[inline(always)]
+fn motion<L: Lane>(permit: L::Permit, of: &L::Each<&Velocity>) -> (Vector<L>, Vector<L>) {
+    let [vx, vy, vz, _] = L::rows(permit, of, |p| [p.v.x, p.v.y, p.v.z, p.w.x]);
+    let [_, wx, wy, wz] = L::rows(permit, of, |p| [p.v.z, p.w.x, p.w.y, p.w.z]);
+    (Vector { x: vx, y: vy, z: vz }, Vector { x: wx, y: wy, z: wz })
 }
 
 /// Loads all active pairs of a chunk.
@@ -158,7 +193,8 @@ impl<T: PairTerm, L: Lane, const ROLLS: bool> pulp::NullaryFnOnce for Both<'_, '
 
     #[inline(always)]
     fn call(mut self) {
-        let (permit, view, term) = (self.permit, self.view, self.term);
+        // A copy of its own: no store into a list can change it.
+        let (permit, view, term) = (self.permit, &{ *self.view }, self.term);
         list::<T, L, ROLLS, true>(permit, view, term, self.inside, &mut self.out);
         list::<T, L, ROLLS, false>(permit, view, term, self.across, &mut self.out);
     }
@@ -191,7 +227,8 @@ fn list<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
     let mut apart = std::mem::take(out.apart);
     apart.clear();
     for start in (0..list.active.len()).step_by(TILE) {
-        let count = pick(view, term, list, start, &mut touching, waiting, &mut apart);
+        let count =
+            pick::<T, L>(permit, view, term, list, start, &mut touching, waiting, &mut apart);
         let acting = &touching[..count];
         waiting = fours::<T, L, ROLLS, INSIDE, false>(permit, view, term, list, acting, out);
         // What makes no four waits for the next tile.
@@ -208,7 +245,9 @@ fn list<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
 /// first `waiting` of `touching`, without branching on what no processor can foresee; of the others
 /// to the end of `apart`.
 #[inline(always)]
-fn pick<T: PairTerm>(
+#[allow(clippy::too_many_arguments)] // one loop body, named
+fn pick<T: PairTerm, L: Lane>(
+    permit: L::Permit,
     view: &View<'_>,
     term: &T,
     list: &mut PairList<T::Column>,
@@ -218,12 +257,13 @@ fn pick<T: PairTerm>(
     apart: &mut Vec<u32>,
 ) -> usize {
     let end = list.active.len().min(start + TILE);
-    let tile = list.active[start..end].iter().zip(&mut list.columns[start..end]);
+    let tile = &list.active[start..end];
+    let gaps = gaps::<L>(permit, view, tile);
+    let pairs = tile.iter().zip(&mut list.columns[start..end]).zip(gaps);
     let (mut near, mut far) = (waiting, 0);
     let mut others = [0; TILE];
-    for (index, (&entry, column)) in tile.enumerate() {
-        let encounter = view.meet(entry);
-        let (acts, touches) = (!term.idle(&encounter, column), encounter.gap < 0.0);
+    for (index, ((&entry, column), gap)) in pairs.enumerate() {
+        let (acts, touches) = (!term.idle(&view.encounter(entry, gap), column), gap < 0.0);
         touching[near] = (start + index) as u32;
         near += usize::from(acts & touches);
         others[far % TILE] = (start + index) as u32;
@@ -231,6 +271,22 @@ fn pick<T: PairTerm>(
     }
     apart.extend_from_slice(&others[..far]);
     near
+}
+
+/// Gaps of a tile of pairs.
+#[inline(always)]
+fn gaps<L: Lane>(permit: L::Permit, view: &View<'_>, tile: &[Entry]) -> [f64; TILE] {
+    let mut gaps = [0.0; TILE];
+    let (fours, rest) = tile.as_chunks::<4>();
+    let (gaps_of_fours, gaps_of_rest) = gaps.split_at_mut(4 * fours.len());
+    for (four, out) in fours.iter().zip(gaps_of_fours.as_chunks_mut::<4>().0) {
+        let gap = view.distances::<L>(permit, &L::each(|k| four[k])).gap.unpack();
+        (out[0], out[1], out[2], out[3]) = (gap[0], gap[1], gap[2], gap[3]);
+    }
+    for (entry, out) in rest.iter().zip(gaps_of_rest) {
+        *out = view.distances::<f64>((), &[*entry]).gap;
+    }
+    gaps
 }
 
 /// Loads as many of the pairs as make fours; returns how many are left over at the end.
