@@ -1,6 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, Mate, OutOfRange, Range, Validity};
 
 use crate::{
@@ -119,6 +120,26 @@ macro_rules! any_law {
             #[inline]
             fn force(&self, gap: f64) -> f64 {
                 match self { $(Self::$variant(curve) => curve.force(gap),)+ }
+            }
+
+            /// Of all laws only Lambert's has a formula for several bridges at once.
+            #[inline(always)]
+            fn forces<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+                if let Self::Lambert(first) = curves[0] {
+                    let mut all = true;
+                    let mut lambert = L::each(|_| first);
+                    for k in 1..L::WIDTH {
+                        match curves[k] {
+                            Self::Lambert(curve) => lambert[k] = curve,
+                            _ => all = false,
+                        }
+                    }
+                    if all {
+                        return ForceCurve::forces(&lambert, gap);
+                    }
+                }
+                let gaps = gap.unpack();
+                L::pack(gap.permit(), &L::each(|k| curves[k].force(gaps[k])), |force| *force)
             }
         }
     };

@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
 use crate::checked::{finite, positive};
@@ -91,9 +92,17 @@ impl CapillaryLaw for Lambert2008 {
 impl ForceCurve for Lambert2008Curve {
     #[inline(always)]
     fn force(&self, gap: f64) -> f64 {
-        let gap = gap.max(0.0);
-        let reach = (gap * gap + self.a_squared).sqrt();
-        self.contact * (self.a_squared / (reach * (reach + gap)))
+        Self::forces::<f64>(&[self], gap)
+    }
+
+    #[inline(always)]
+    fn forces<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        let permit = gap.permit();
+        let contact = L::pack(permit, curves, |curve| curve.contact);
+        let a_squared = L::pack(permit, curves, |curve| curve.a_squared);
+        let gap = gap.most(L::splat(permit, 0.0));
+        let reach = (gap * gap + a_squared).sqrt();
+        contact * (a_squared / (reach * (reach + gap)))
     }
 }
 

@@ -1,3 +1,4 @@
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange, Range, Validity};
 
 /// A model of the static capillary force of a liquid bridge at constant volume.
@@ -31,4 +32,11 @@ pub trait ForceCurve: Copy {
     /// `gap` S is the distance of the surfaces, m. Overlap (S < 0) reads as S = 0. The value is
     /// finite for every gap, also beyond the rupture distance, which is not this law's business.
     fn force(&self, gap: f64) -> f64;
+
+    /// The forces of bridges side by side: to the bit what [`ForceCurve::force`] gives for each.
+    #[inline(always)]
+    fn forces<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].force(gaps[k])), |force| *force)
+    }
 }

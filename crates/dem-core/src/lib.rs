@@ -28,8 +28,6 @@
 //! 310, 109524. Limits of the step in packings: O'Sullivan & Bray (2004), Eng. Comput. 21, 278;
 //! Otsubo, O'Sullivan & Shire (2017), Comput. Geotech. 86, 67.
 
-#[cfg(target_arch = "x86_64")]
-mod avx;
 mod boundary;
 mod chunk;
 mod contact;

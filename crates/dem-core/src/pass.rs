@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-#[cfg(target_arch = "x86_64")]
-use crate::avx::Avx;
 use crate::chunk::{Chunk, List, Note, Roll, Sum};
 use crate::lane::{Four, Lane, Vector};
 use crate::lists::{Entry, PairList};
 use crate::pairs::{Geometry, Pairs, Picked};
 use crate::particles::{Class, Particles, Place, Velocity};
 use crate::{Encounter, Load, Pair, PairTerm, Partner};
+#[cfg(target_arch = "x86_64")]
+use pendular_lane::Avx;
 
 /// Pairs that are looked at before those of them that act are loaded: few enough to stay near.
 const TILE: usize = 128;

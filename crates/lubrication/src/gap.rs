@@ -1,3 +1,4 @@
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, Mate, OutOfRange};
 
 /// How the gap S is kept from 0, where every lubrication law diverges.
@@ -133,6 +134,15 @@ impl Clearance {
     #[inline(always)]
     pub(crate) fn at(&self, gap: f64) -> f64 {
         if self.cut_off { gap.max(self.contact) } else { gap.max(0.0) + self.contact }
+    }
+
+    /// The clearances of bridges side by side.
+    #[inline(always)]
+    pub(crate) fn of<L: Lane>(each: &L::Each<&Self>, gap: L) -> L {
+        let permit = gap.permit();
+        let least = L::pack(permit, each, |c| if c.cut_off { c.contact } else { 0.0 });
+        let added = L::pack(permit, each, |c| if c.cut_off { 0.0 } else { c.contact });
+        gap.most(least) + added
     }
 
     /// s does not change below this gap, m.

@@ -1,3 +1,4 @@
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange};
 
 /// A model of the viscous force along the line of centres.
@@ -17,6 +18,14 @@ pub trait NormalCurve: Copy {
     /// Drag coefficient c_n, N s/m, at least 0 and finite for every `gap` (m, overlap negative):
     /// the force on the pair is −c_n dS/dt along the line of centres.
     fn coefficient(&self, gap: f64) -> f64;
+
+    /// The coefficients of bridges side by side: to the bit what [`NormalCurve::coefficient`] gives
+    /// for each.
+    #[inline(always)]
+    fn coefficients<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].coefficient(gaps[k])), |c| *c)
+    }
 
     /// The inverse length κ, 1/m, if in overlap the coefficient is `coefficient(0) exp(κ S)`, to
     /// rounding; 0 for a constant, infinite for none. `None` if it is anything else.
@@ -44,6 +53,19 @@ pub trait TangentialDrag {
 pub trait TangentialCurve: Copy {
     /// Resistance at `gap` (m, overlap negative); positive semi-definite and finite for every gap.
     fn resistance(&self, gap: f64) -> Resistance;
+
+    /// The resistances A, B and D of bridges side by side: to the bit what
+    /// [`TangentialCurve::resistance`] gives for each.
+    #[inline(always)]
+    fn resistances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> [L; 3] {
+        let (permit, gaps) = (gap.permit(), gap.unpack());
+        let each = L::each(|k| curves[k].resistance(gaps[k]));
+        [
+            L::pack(permit, &each, |r| r.slip),
+            L::pack(permit, &each, |r| r.coupling),
+            L::pack(permit, &each, |r| r.rolling),
+        ]
+    }
 
     /// The inverse length κ, 1/m, if in overlap the resistance is `resistance(0) exp(κ S)`, to
     /// rounding; 0 for a constant, infinite for none. `None` if it is anything else.

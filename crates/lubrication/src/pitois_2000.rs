@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange};
 
 use crate::adams_perchard_1985::strength;
@@ -84,9 +85,17 @@ impl Pitois2000Curve {
     /// K X²/s at the clearance s > 0; X written without cancellation.
     #[inline(always)]
     fn open(&self, clearance: f64) -> f64 {
-        let slant = (clearance * clearance + self.width_squared).sqrt();
-        let wetted = self.width_squared / (slant * (slant + clearance));
-        self.strength / clearance * wetted * wetted
+        Self::open_gaps::<f64>(&[self], clearance)
+    }
+
+    #[inline(always)]
+    fn open_gaps<L: Lane>(curves: &L::Each<&Self>, clearance: L) -> L {
+        let permit = clearance.permit();
+        let strength = L::pack(permit, curves, |curve| curve.strength);
+        let width_squared = L::pack(permit, curves, |curve| curve.width_squared);
+        let slant = (clearance * clearance + width_squared).sqrt();
+        let wetted = width_squared / (slant * (slant + clearance));
+        strength / clearance * wetted * wetted
     }
 }
 
@@ -97,6 +106,15 @@ impl NormalCurve for Pitois2000Curve {
             return self.contact_coefficient * self.clearance.weight(gap);
         }
         self.open(self.clearance.at(gap))
+    }
+
+    #[inline(always)]
+    fn coefficients<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        if gap.any_less(L::splat(gap.permit(), 0.0)) {
+            let gaps = gap.unpack();
+            return L::pack(gap.permit(), &L::each(|k| curves[k].coefficient(gaps[k])), |c| *c);
+        }
+        Self::open_gaps(curves, Clearance::of(&L::each(|k| &curves[k].clearance), gap))
     }
 
     #[inline]

@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange};
 
 use crate::gap::Clearance;
@@ -81,7 +82,15 @@ impl Popov2010Curve {
     /// The slip resistance at a clearance, m, without the fade in overlap.
     #[inline(always)]
     fn open(&self, clearance: f64) -> f64 {
-        self.scale * (1.0 + self.half_radius / clearance).ln()
+        Self::open_gaps::<f64>(&[self], clearance)
+    }
+
+    #[inline(always)]
+    fn open_gaps<L: Lane>(curves: &L::Each<&Self>, clearance: L) -> L {
+        let permit = clearance.permit();
+        let half_radius = L::pack(permit, curves, |curve| curve.half_radius);
+        let logarithm = (L::splat(permit, 1.0) + half_radius / clearance).logarithm();
+        L::pack(permit, curves, |curve| curve.scale) * logarithm
     }
 }
 
@@ -94,6 +103,19 @@ impl TangentialCurve for Popov2010Curve {
             self.open(self.clearance.at(gap))
         };
         Resistance { slip, coupling: 0.0, rolling: 0.0 }
+    }
+
+    #[inline(always)]
+    fn resistances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> [L; 3] {
+        let permit = gap.permit();
+        let none = L::splat(permit, 0.0);
+        if gap.any_less(none) {
+            let gaps = gap.unpack();
+            let each = L::each(|k| curves[k].resistance(gaps[k]).slip);
+            return [L::pack(permit, &each, |slip| *slip), none, none];
+        }
+        let clearance = Clearance::of(&L::each(|k| &curves[k].clearance), gap);
+        [Self::open_gaps(curves, clearance), none, none]
     }
 
     fn fade(&self) -> Option<f64> {

@@ -6,6 +6,8 @@ use pendular_capillary::ForceCurve;
 use pendular_dem_core::{Geometry, Lane, Loads};
 use pendular_lubrication::{NormalCurve, Resistance, TangentialCurve};
 
+use super::shelf::Far;
+
 /// The forces of one bridge at one gap, before any velocity is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Pull {
@@ -83,6 +85,22 @@ impl<L: Lane> Pulls<L> {
             slip: L::pack(permit, pulls, |p| p.borrow().resistance.slip),
             coupling: L::pack(permit, pulls, |p| p.borrow().resistance.coupling),
             rolling: L::pack(permit, pulls, |p| p.borrow().resistance.rolling),
+        }
+    }
+
+    /// What the curves give at a gap.
+    #[inline(always)]
+    pub(super) fn apart<C: ForceCurve, N: NormalCurve, S: TangentialCurve>(
+        far: &L::Each<&Far<C, N, S>>,
+        gap: L,
+    ) -> Self {
+        let [slip, coupling, rolling] = S::resistances(&L::each(|k| &far[k].curves.2), gap);
+        Self {
+            tension: C::forces(&L::each(|k| &far[k].curves.0), gap),
+            drag: N::coefficients(&L::each(|k| &far[k].curves.1), gap),
+            slip,
+            coupling,
+            rolling,
         }
     }
 

@@ -112,16 +112,15 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
 
     #[inline(always)]
     fn apart<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
-        let gaps = gap.unpack();
-        let mut pulls = L::each(|_| Pull::NONE);
-        for k in 0..L::WIDTH {
-            let far = self.far.get(seats[k])?;
-            if gaps[k] > far.rupture {
-                return None;
-            }
-            pulls[k] = Pull::at(&far.curves, gaps[k]);
+        let first = self.far.get(seats[0])?;
+        let mut far = L::each(|_| first);
+        for k in 1..L::WIDTH {
+            far[k] = self.far.get(seats[k])?;
         }
-        Some(Pulls::pack(gap.permit(), &pulls))
+        if L::pack(gap.permit(), &far, |far| far.rupture).any_less(gap) {
+            return None;
+        }
+        Some(Pulls::apart(&far, gap))
     }
 
     /// The forces of one pair; `None` without a bridge or beyond its static rupture distance.

@@ -6,10 +6,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use pulp::x86::V3;
 
 use crate::Lane;
+use crate::logarithm::{LEAST, MAGIC, MAGIC_AND_BIAS, MANTISSA, SHIFT};
 
 /// Four numbers side by side in one register.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Avx {
+pub struct Avx {
     permit: V3,
     all: __m256d,
 }
@@ -101,6 +102,23 @@ impl Lane for Avx {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self { all: self.permit.avx._mm256_sqrt_pd(self.all), ..self }
+    }
+
+    #[inline(always)]
+    fn split(self) -> [Self; 2] {
+        let (avx, avx2) = (self.permit.avx, self.permit.avx2);
+        let shift = avx._mm256_set1_epi64x(SHIFT.cast_signed());
+        let mask = avx._mm256_set1_epi64x(MANTISSA.cast_signed());
+        let least = avx._mm256_set1_epi64x(LEAST.cast_signed());
+        let magic = avx._mm256_set1_epi64x(MAGIC.cast_signed());
+        let shifted = avx2._mm256_add_epi64(avx._mm256_castpd_si256(self.all), shift);
+        let mantissa = avx2._mm256_and_si256(shifted, mask);
+        let mantissa = avx2._mm256_add_epi64(mantissa, least);
+        let exponent = avx2._mm256_srli_epi64::<52>(shifted);
+        let exponent = avx2._mm256_or_si256(exponent, magic);
+        let exponent = avx._mm256_castsi256_pd(exponent);
+        let all = avx._mm256_sub_pd(exponent, avx._mm256_set1_pd(MAGIC_AND_BIAS));
+        [Self { all: avx._mm256_castsi256_pd(mantissa), ..self }, Self { all, ..self }]
     }
 
     #[inline(always)]
