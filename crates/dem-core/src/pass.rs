@@ -166,6 +166,16 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
             across,
             out,
         }),
+        // The same four numbers, but twice as many registers.
+        #[cfg(target_arch = "x86_64")]
+        pulp::Arch::V4(wide) => wide.vectorize(Both::<'_, '_, T, Avx, ROLLS> {
+            permit: *wide,
+            view,
+            term,
+            inside,
+            across,
+            out,
+        }),
         arch => arch.dispatch(Both::<'_, '_, T, Four, ROLLS> {
             permit: (),
             view,
