@@ -259,6 +259,24 @@ mod tests {
         assert_eq!(any, Lambert2008.force(&bridge, 1e-5, Range::Strict));
     }
 
+    #[test]
+    fn four_bridges_at_once_have_the_bits_of_each() {
+        use pendular_lane::{Four, Lane};
+        let cheap = |law: &AnyCapillary| *law != AnyCapillary::YoungLaplace;
+        let mixed = [AnyCapillary::Lambert, AnyCapillary::Lambert, AnyCapillary::Rabinovich];
+        for laws in AnyCapillary::ALL.into_iter().filter(cheap).map(|law| [law; 3]).chain([mixed]) {
+            let curve = |k: usize| {
+                let bridge = laws[k % 3].examples()[k % 2];
+                laws[k % 3].curve(&bridge, Range::Strict).unwrap()
+            };
+            let curves = [curve(0), curve(1), curve(2), curve(3)];
+            let gaps = [-1e-6, 0.0, 3e-6, 1e-4];
+            let at_once = AnyCurve::forces(&curves.each_ref(), Four::pack((), &gaps, |gap| *gap));
+            let each: [f64; 4] = std::array::from_fn(|k| curves[k].force(gaps[k]));
+            assert_eq!(at_once.unpack().map(f64::to_bits), each.map(f64::to_bits), "{laws:?}");
+        }
+    }
+
     #[cfg(feature = "serde")]
     #[test]
     fn serde_reads_and_writes_the_name() {

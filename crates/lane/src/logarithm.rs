@@ -17,7 +17,7 @@ pub(super) const MAGIC: u64 = 0x4330_0000_0000_0000;
 /// The same with the exponent's bias.
 pub(super) const MAGIC_AND_BIAS: f64 = 4_503_599_627_370_496.0 + 1023.0;
 
-const LN2_HIGH: f64 = 6.931_471_803_691_238_2e-1;
+const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// R(z) = Σ SERIES[k] z^(k+1).
 const SERIES: [f64; 7] = [

@@ -1,5 +1,6 @@
 use std::str::FromStr;
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange};
 
 use crate::adams_perchard_1985::AdamsPerchard1985Curve;
@@ -133,6 +134,26 @@ any_drag! {
     "jeffrey-onishi" => JeffreyOnishi1984, JeffreyOnishi1984Curve;
 }
 
+/// Those curves that are of one law, if all are.
+macro_rules! all_alike {
+    ($curves:expr, $any:ident :: $law:ident, $lane:ty) => {
+        match $curves[0] {
+            $any::$law(first) => {
+                let mut alike = true;
+                let mut own = <$lane>::each(|_| first);
+                for k in 1..<$lane>::WIDTH {
+                    match $curves[k] {
+                        $any::$law(curve) => own[k] = curve,
+                        _ => alike = false,
+                    }
+                }
+                alike.then_some(own)
+            }
+            _ => None,
+        }
+    };
+}
+
 impl NormalCurve for AnyNormalCurve {
     #[inline]
     fn coefficient(&self, gap: f64) -> f64 {
@@ -140,6 +161,16 @@ impl NormalCurve for AnyNormalCurve {
             Self::AdamsPerchard1985(curve) => curve.coefficient(gap),
             Self::Pitois2000(curve) => curve.coefficient(gap),
         }
+    }
+
+    /// Of all laws only Pitois' has a formula for several bridges at once.
+    #[inline(always)]
+    fn coefficients<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        if let Some(own) = all_alike!(curves, AnyNormalCurve::Pitois2000, L) {
+            return NormalCurve::coefficients(&own, gap);
+        }
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].coefficient(gaps[k])), |c| *c)
     }
 
     #[inline]
@@ -167,6 +198,21 @@ impl TangentialCurve for AnyTangentialCurve {
             Self::Goldman1967(curve) => curve.resistance(gap),
             Self::JeffreyOnishi1984(curve) => curve.resistance(gap),
         }
+    }
+
+    /// Of all laws only Popov's has a formula for several bridges at once.
+    #[inline(always)]
+    fn resistances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> [L; 3] {
+        if let Some(own) = all_alike!(curves, AnyTangentialCurve::Popov2010, L) {
+            return TangentialCurve::resistances(&own, gap);
+        }
+        let (permit, gaps) = (gap.permit(), gap.unpack());
+        let each = L::each(|k| curves[k].resistance(gaps[k]));
+        [
+            L::pack(permit, &each, |r| r.slip),
+            L::pack(permit, &each, |r| r.coupling),
+            L::pack(permit, &each, |r| r.rolling),
+        ]
     }
 
     fn fade(&self) -> Option<f64> {
@@ -199,6 +245,38 @@ mod tests {
     fn an_unknown_name_lists_the_known_ones() {
         let said = "adams".parse::<NormalModel>().unwrap_err().to_string();
         assert!(said.contains("\"adams\"") && said.contains("adams-perchard, pitois"), "{said}");
+    }
+
+    #[test]
+    fn four_bridges_at_once_have_the_bits_of_each() {
+        use crate::{Gap, Mate};
+        use pendular_lane::{Four, Lane};
+        let bridge = |k: u32| {
+            let radius = 1e-3 + 1e-4 * f64::from(k);
+            Bridge::new(radius, Mate::Sphere { radius: 2e-3 }, 1e-11, [0.1; 2], 0.07).unwrap()
+        };
+        let bits = |all: [f64; 4]| all.map(f64::to_bits);
+        for gap in [Gap::CutOff { length: 2e-6 }, Gap::Roughness { length: 1e-6 }] {
+            for gaps in [[0.0, 1e-7, 3e-6, 1e-4], [-1e-7, 1e-6, 0.0, -3e-6]] {
+                let lanes = Four::pack((), &gaps, |gap| *gap);
+                for model in NormalModel::ALL {
+                    let law = model.with(gap.into());
+                    let curves = [0, 1, 2, 3].map(|k| law.curve(&bridge(k), 1e-3).unwrap());
+                    let at_once = AnyNormalCurve::coefficients(&curves.each_ref(), lanes);
+                    let each = std::array::from_fn(|k| curves[k].coefficient(gaps[k]));
+                    assert_eq!(bits(at_once.unpack()), bits(each), "{model:?} {gaps:?}");
+                }
+                for model in TangentialModel::ALL {
+                    let law = model.with(gap.into());
+                    let curves = [0, 1, 2, 3].map(|k| law.curve(&bridge(k), 1e-3).unwrap());
+                    let at_once = AnyTangentialCurve::resistances(&curves.each_ref(), lanes);
+                    let each: [_; 4] = std::array::from_fn(|k| curves[k].resistance(gaps[k]));
+                    assert_eq!(bits(at_once[0].unpack()), bits(each.map(|r| r.slip)));
+                    assert_eq!(bits(at_once[1].unpack()), bits(each.map(|r| r.coupling)));
+                    assert_eq!(bits(at_once[2].unpack()), bits(each.map(|r| r.rolling)));
+                }
+            }
+        }
     }
 
     #[test]

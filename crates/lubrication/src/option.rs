@@ -1,8 +1,20 @@
 //! A drag that may be absent: `None` drags nothing.
 
+use pendular_lane::Lane;
 use pendular_pair::{Bridge, OutOfRange};
 
 use crate::{NormalCurve, NormalDrag, Resistance, TangentialCurve, TangentialDrag};
+
+/// The curves, if all are there.
+#[inline(always)]
+fn all<'a, L: Lane, C>(curves: &L::Each<&'a Option<C>>) -> Option<L::Each<&'a C>> {
+    let first = curves[0].as_ref()?;
+    let mut all = L::each(|_| first);
+    for k in 1..L::WIDTH {
+        all[k] = curves[k].as_ref()?;
+    }
+    Some(all)
+}
 
 impl<D: NormalDrag> NormalDrag for Option<D> {
     type Curve = Option<D::Curve>;
@@ -16,6 +28,15 @@ impl<C: NormalCurve> NormalCurve for Option<C> {
     #[inline]
     fn coefficient(&self, gap: f64) -> f64 {
         self.as_ref().map_or(0.0, |curve| curve.coefficient(gap))
+    }
+
+    #[inline(always)]
+    fn coefficients<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        if let Some(own) = all::<L, C>(curves) {
+            return C::coefficients(&own, gap);
+        }
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].coefficient(gaps[k])), |c| *c)
     }
 
     fn fade(&self) -> Option<f64> {
@@ -40,6 +61,20 @@ impl<C: TangentialCurve> TangentialCurve for Option<C> {
     #[inline]
     fn resistance(&self, gap: f64) -> Resistance {
         self.as_ref().map_or_else(Resistance::default, |curve| curve.resistance(gap))
+    }
+
+    #[inline(always)]
+    fn resistances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> [L; 3] {
+        if let Some(own) = all::<L, C>(curves) {
+            return C::resistances(&own, gap);
+        }
+        let (permit, gaps) = (gap.permit(), gap.unpack());
+        let each = L::each(|k| curves[k].resistance(gaps[k]));
+        [
+            L::pack(permit, &each, |r| r.slip),
+            L::pack(permit, &each, |r| r.coupling),
+            L::pack(permit, &each, |r| r.rolling),
+        ]
     }
 
     fn fade(&self) -> Option<f64> {
