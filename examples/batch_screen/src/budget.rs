@@ -5,6 +5,7 @@ use pendular::{Acting, Against, Budget, MeshWalls};
 use serde_json::json;
 
 use crate::makeup::Makeup;
+use crate::tally::Tally;
 
 /// Steps between looks at all pairs; a multiple of the steps between looks at what has left.
 pub(crate) const EVERY: u64 = 1024;
@@ -78,18 +79,25 @@ fn rows(budget: &Budget, capillary_loss: f64) -> Vec<Row> {
 }
 
 /// The budget for `summary.json`, one object a force.
-pub(crate) fn document(budget: &Budget, capillary_loss: f64) -> serde_json::Value {
+pub(crate) fn document(budget: &Budget, tally: &Tally) -> serde_json::Value {
     let percent = |share: f64| (1e4 * share).round() / 1e2;
-    let rows = rows(budget, capillary_loss).into_iter().filter(|row| row.seen > 0).map(|row| {
-        json!({
-            "force": row.acting.name(),
-            "verdict": row.verdict(),
-            "impulse_percent": percent(row.impulse),
-            "with_walls_percent": percent(row.walls),
-            "dissipated_percent": percent(row.energy),
-            "dissipated_J": row.joules,
-        })
-    });
+    let outside = tally.counts.extrapolated as f64 / tally.counts.formed.max(1) as f64;
+    let rows =
+        rows(budget, tally.capillary_loss).into_iter().filter(|row| row.seen > 0).map(|row| {
+            json!({
+                "force": row.acting.name(),
+                "verdict": row.verdict(),
+                "impulse_percent": percent(row.impulse),
+                "with_walls_percent": percent(row.walls),
+                "dissipated_percent": percent(row.energy),
+                "dissipated_J": row.joules,
+                // Drags have no range; rupture and capillary force are counted together.
+                "outside_law_range_percent": match row.acting {
+                    Acting::Capillary => percent(outside),
+                    _ => 0.0,
+                },
+            })
+        });
     rows.collect()
 }
 

@@ -202,7 +202,7 @@ pub(crate) fn summary(
         "liquid_imbalance": tally.imbalance,
         "largest_overlap": outcome.largest_overlap,
         "least_limit_s": outcome.limit.is_finite().then_some(outcome.limit),
-        "budget": budget::document(&outcome.budget, tally.capillary_loss),
+        "budget": budget::document(&outcome.budget, tally),
         "wall_time_s": outcome.wall_time.as_secs_f64(),
         "stopped_by_guard": outcome.fault,
         "time_split_s": outcome.spent.seconds(),
