@@ -402,8 +402,8 @@ fn the_account_of_capillary_energy_closes() {
         let term = &simulation.term().1;
         let mut energy = 0.0;
         simulation.survey(|pair, (_, hold)| {
-            let bridge = hold.bridge().and_then(|bridge| term.live(bridge)).unwrap();
-            energy += term.capillary_energy(bridge, pair.encounter.gap).unwrap();
+            let bridge = hold.bridge().unwrap();
+            energy += term.energy_of(bridge, pair.encounter.gap).unwrap();
         });
         live = f64::min(live, energy);
     }

@@ -73,8 +73,7 @@ impl Makeup for (Contact<Linear>, WetTerm) {
         pair: &Pair,
         (spring, hold): &Self::Column,
     ) -> (ContactForces, Option<BridgeForces>) {
-        let live = hold.bridge().and_then(|bridge| self.1.live(bridge));
-        let bridge = live.and_then(|live| self.1.forces(live, pair).ok());
+        let bridge = hold.bridge().and_then(|bridge| self.1.forces(bridge, pair));
         (self.0.forces(pair, spring), bridge)
     }
 }

@@ -130,10 +130,8 @@ impl Tally {
         self.imbalance = wet.ledger().imbalance();
         self.capillary_loss = wet.capillary_loss();
         simulation.survey(|pair, column| {
-            let bridge = T::store(column).bridge.and_then(|bridge| wet.live(bridge));
-            // Every live bridge has formed, so its law has an energy.
-            let energy = bridge.map(|live| wet.capillary_energy(live, pair.encounter.gap));
-            self.capillary += energy.and_then(Result::ok).unwrap_or(0.0);
+            let energy = |bridge| wet.energy_of(bridge, pair.encounter.gap);
+            self.capillary += T::store(column).bridge.and_then(energy).unwrap_or(0.0);
         });
     }
 

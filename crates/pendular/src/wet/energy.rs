@@ -30,10 +30,15 @@ where
     pub fn capillary_energy(&self, live: &LiveBridge, gap: f64) -> Result<f64, OutOfRange> {
         let laws = self.laws(live.second);
         let curve = laws.capillary.curve(&live.bridge, self.range)?;
-        let rupture = laws.rupture.distance(&live.bridge, self.range)?;
-        // In overlap the force is that at contact.
-        let apart = gap.max(0.0);
-        Ok(curve.force(0.0) * (gap - apart) - integral(&curve, apart, rupture))
+        Ok(energy(&curve, gap, laws.rupture.distance(&live.bridge, self.range)?))
+    }
+
+    /// The same of the live bridge of an account, without folding its laws again; `None` if there
+    /// is no such bridge.
+    #[must_use]
+    pub fn energy_of(&self, bridge: u32, gap: f64) -> Option<f64> {
+        let (_, far) = self.seated(bridge)?;
+        Some(energy(&far.curves.0, gap, far.rupture))
     }
 
     /// Capillary energy that was lost so far, J: what formation released and what was left at
@@ -44,11 +49,15 @@ where
     }
 
     /// Books the energy of a bridge at `gap` that ends (`sign` 1) or has formed (−1).
-    pub(super) fn lose(&mut self, bridge: u32, gap: f64, sign: f64) -> Result<(), OutOfRange> {
-        let energy = self.live(bridge).map(|live| self.capillary_energy(live, gap)).transpose()?;
-        self.capillary_loss += sign * energy.unwrap_or(0.0);
-        Ok(())
+    pub(super) fn lose(&mut self, bridge: u32, gap: f64, sign: f64) {
+        self.capillary_loss += sign * self.energy_of(bridge, gap).unwrap_or(0.0);
     }
+}
+
+/// In overlap the force is that at contact.
+fn energy(curve: &impl ForceCurve, gap: f64, rupture: f64) -> f64 {
+    let apart = gap.max(0.0);
+    curve.force(0.0) * (gap - apart) - integral(curve, apart, rupture)
 }
 
 /// ∫ F dS from `from` to `to`, both at least 0; √S is the variable because forces start with a

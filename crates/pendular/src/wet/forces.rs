@@ -4,10 +4,13 @@ use glam::DVec3;
 use pendular_capillary::{CapillaryLaw, ForceCurve};
 use pendular_dem_core::{Pair, StabilityLoad};
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
-use pendular_pair::OutOfRange;
-use pendular_transfer::RuptureLaw;
 
+use super::shelf::Far;
 use super::{LiveBridge, Wet};
+
+/// What is kept of a bridge with these laws.
+pub(super) type FarOf<C, N, S> =
+    Far<<C as CapillaryLaw>::Curve, <N as NormalDrag>::Curve, <S as TangentialDrag>::Curve>;
 
 /// The forces of one bridge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -40,42 +43,43 @@ where
         self.live.get(bridge as usize)?.as_ref().map(|seated| &seated.live)
     }
 
-    /// What acts in a live bridge, by the same laws as the step.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] as when the bridge formed; it has formed, so that does not happen.
-    pub fn forces(&self, live: &LiveBridge, pair: &Pair) -> Result<BridgeForces, OutOfRange> {
-        let (laws, gap) = (self.laws(live.second), pair.encounter.gap);
-        let viscosity = self.liquid.viscosity;
-        let capillary = laws.capillary.curve(&live.bridge, self.range)?.force(gap);
-        let drag = laws.normal.curve(&live.bridge, viscosity)?.coefficient(gap);
-        let resistance = laws.tangential.curve(&live.bridge, viscosity)?.resistance(gap);
+    /// A live bridge with what acts in it.
+    pub(super) fn seated(&self, bridge: u32) -> Option<(&LiveBridge, &FarOf<C, N, S>)> {
+        let seated = self.live.get(bridge as usize)?.as_ref()?;
+        Some((&seated.live, self.shelf.far(seated.seat)?))
+    }
+
+    /// What acts in the live bridge of an account, by the same laws as the step; `None` if there is
+    /// no such bridge.
+    #[must_use]
+    pub fn forces(&self, bridge: u32, pair: &Pair) -> Option<BridgeForces> {
+        let (live, far) = self.seated(bridge)?;
+        let gap = pair.encounter.gap;
+        let (capillary, normal, tangential) = &far.curves;
+        let (drag, resistance) = (normal.coefficient(gap), tangential.resistance(gap));
         let reduced = live.bridge.reduced_radius();
         let turning = reduced * pair.spin.cross(pair.half_step_normal);
         let shear = -(resistance.slip * pair.slip + resistance.coupling * turning);
         let rolling = -(resistance.coupling * pair.slip + resistance.rolling * turning);
         let speed = pair.separation_speed;
-        Ok(BridgeForces {
-            capillary,
+        Some(BridgeForces {
+            capillary: capillary.force(gap),
             viscous_normal: drag * speed,
             viscous_tangential: shear,
             couple: reduced * pair.normal.cross(rolling),
             normal_power: drag * speed * speed,
             tangential_power: -(shear.dot(pair.slip) + rolling.dot(turning)),
-            stretched: gap > laws.rupture.distance(&live.bridge, self.range)?,
+            stretched: gap > far.rupture,
         })
     }
 
     /// Drag coefficients of a live bridge, as they enter the stability limit.
     pub(super) fn drag_on_limit(&self, bridge: u32, gap: f64) -> StabilityLoad {
-        let coefficients = || {
-            let live = self.live(bridge)?;
-            let (laws, viscosity) = (self.laws(live.second), self.liquid.viscosity);
-            let normal = laws.normal.curve(&live.bridge, viscosity).ok()?;
-            let tangential = laws.tangential.curve(&live.bridge, viscosity).ok()?;
-            Some((normal.coefficient(gap), tangential.resistance(gap).slip))
+        let coefficients = |(_, far): (_, &FarOf<C, N, S>)| {
+            (far.curves.1.coefficient(gap), far.curves.2.resistance(gap).slip)
         };
-        let (normal_drag, tangential_drag) = coefficients().unwrap_or_default();
+        let both = self.seated(bridge).map(coefficients);
+        let (normal_drag, tangential_drag) = both.unwrap_or_default();
         StabilityLoad { normal_drag, tangential_drag, ..StabilityLoad::default() }
     }
 }

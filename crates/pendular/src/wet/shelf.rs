@@ -136,6 +136,11 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
+    /// What is kept at a seat.
+    pub(super) fn far(&self, seat: u32) -> Option<&Far<C, N, S>> {
+        self.far.get(seat as usize)
+    }
+
     /// The forces of one pair by the curves at whatever gap; `None` without a bridge.
     pub(super) fn beyond(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
         let far = self.far.get(hold.seat as usize)?;

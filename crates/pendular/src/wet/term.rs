@@ -84,7 +84,7 @@ where
         self.ledger.book(&mut moves)?;
         for visit in visits.iter_mut() {
             let Some(bridge) = std::mem::take(&mut visit.column).bridge() else { continue };
-            self.lose(bridge, visit.encounter.gap, 1.0)?;
+            self.lose(bridge, visit.encounter.gap, 1.0);
             if let Some(seated) = self.live[bridge as usize].take() {
                 self.shelf.leave(seated.seat);
             }
@@ -95,7 +95,7 @@ where
             let volume = self.ledger.volume(Account::Bridge(bridge));
             if volume >= self.smallest(&visits[k].encounter) {
                 visits[k].column = self.fold(&visits[k].encounter, bridge)?;
-                self.lose(bridge, visits[k].encounter.gap, -1.0)?;
+                self.lose(bridge, visits[k].encounter.gap, -1.0);
                 self.counts.formed += 1;
             } else {
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
