@@ -1,6 +1,5 @@
 //! What a run says before and after: header, final table, summary.json.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde_json::json;
@@ -208,10 +207,13 @@ pub(crate) fn summary(
         "time_split_s": outcome.spent.seconds(),
         "time_split_percent": outcome.spent.percent(),
     });
+    // Beside its place first: who looks in finds a whole summary.
     let write = || -> std::io::Result<()> {
-        let mut file = std::fs::File::create(path)?;
-        serde_json::to_writer_pretty(&mut file, &document)?;
-        file.write_all(b"\n")
+        let mut text = serde_json::to_vec_pretty(&document)?;
+        text.push(b'\n');
+        let beside = path.with_extension("json.part");
+        std::fs::write(&beside, text)?;
+        std::fs::rename(&beside, path)
     };
     write().map_err(|source| RunError::Write { path: path.to_path_buf(), source })
 }

@@ -50,6 +50,10 @@ fn whole() -> TempDir {
     );
     put("partition.csv", "time_s,5 mm,10 mm,cut_size_mm,imperfection\n0,0,0,,\n1,0.75,0,6.5,0.2\n");
     put("pegging.csv", "time_s,apertures,blocked,5 mm,10 mm\n0,64,0,0,0\n1,64,3,0,3\n");
+    put(
+        "liquid_final.csv",
+        "division,place,volume_m3,in_bridges_m3,share\nfines,5 mm,1e-6,0,0.5\nall,all,2e-6,2e-7,1\n",
+    );
     put("energy.csv", "time_s,kinetic_J,potential_J\n0,0.1,0.2\n1,0.05,0.1\n");
     put(
         "passages.csv",
@@ -112,6 +116,7 @@ fn a_page_holds_what_the_folder_holds() {
     assert_eq!(column(&tables["pegging"], "blocked"), [0.0, 3.0]);
     assert_eq!(column(&tables["energy"], "potential_J"), [0.2, 0.1]);
     assert_eq!(column(&tables["passages"], "class"), [0.0]);
+    assert_eq!(run["liquid_final"][0], json!(["fines", "5 mm", 1e-6, 0.0, 0.5]));
     let frames = &run["replay"]["frames"];
     assert_eq!(
         *frames,
@@ -138,6 +143,7 @@ fn absent_files_leave_their_section_out() {
     let run = &data["runs"][0];
     assert_eq!(run["tables"].as_object().unwrap().keys().collect::<Vec<_>>(), ["retained"]);
     assert!(run["replay"].is_null());
+    assert_eq!(run["liquid_final"], json!([]));
     // Without the summary's classes diameters come from the passages, or are not known.
     let folder = whole();
     put(folder.path(), "summary.json", "{}");

@@ -11,6 +11,8 @@ use std::process::{Child, Output, Stdio};
 
 use common::{program, run, small, summary, terminate, text};
 
+const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+
 fn faulty(folder: &Path, out: &str, options: &[&str]) -> Output {
     let mut args = vec!["run", "small.toml", "--time", "0.05", "--threads", "1", "--out", out];
     args.extend(options);
@@ -52,7 +54,7 @@ fn the_checkpoint_before_a_fault_survives_it() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();
     // A checkpoint at every occasion: none of them is of the state that stops the run.
-    let often = ["--set", "guard.speed=0.05", "--checkpoint-every", "1e-9"];
+    let often = ["--set", LOOSE, "--set", "guard.speed=0.05", "--checkpoint-every", "1e-9"];
     let done = faulty(folder.path(), "often", &often);
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
     let stopped = summary(&folder.path().join("often"))["steps"].as_u64().unwrap();
@@ -64,7 +66,6 @@ fn the_checkpoint_before_a_fault_survives_it() {
     assert!(from > 0.0 && from < 5e-6 * stopped as f64, "{from}");
 }
 
-const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
 const FREE: [&str; 4] = ["--set", "guard.overlap_share=10", "--set", "guard.speed=1e3"];
 
 #[test]

@@ -26,6 +26,8 @@ pub(crate) struct Run {
     tables: Vec<(&'static str, Table)>,
     pub(crate) replay: Option<Replay>,
     notes: Vec<String>,
+    /// Rows of `liquid_final.csv`: division, place, volume, in bridges, share.
+    divisions: Vec<(String, String, f64, f64, f64)>,
 }
 
 impl Run {
@@ -47,6 +49,7 @@ impl Run {
             tables: Vec::new(),
             replay: None,
             notes: Vec::new(),
+            divisions: divisions(&folder.join("liquid_final.csv")),
         };
         run.retained(&folder.join("retained.csv"))?;
         for name in TABLES.into_iter().filter(|name| wanted.contains(name)) {
@@ -158,9 +161,16 @@ impl Run {
             "classes": classes,
             "tables": tables,
             "replay": replay.map(|replay| replay.json(self.classes.len())),
+            "liquid_final": self.divisions,
             "notes": self.notes,
         })
     }
+}
+
+/// The liquid at the end; nothing where a run has not come to it, or the table is not whole.
+fn divisions(path: &Path) -> Vec<(String, String, f64, f64, f64)> {
+    let rows = |mut reader: csv::Reader<std::fs::File>| reader.deserialize().collect();
+    csv::Reader::from_path(path).and_then(rows).unwrap_or_default()
 }
 
 fn summary(path: &Path) -> Result<Map<String, Value>, PageError> {

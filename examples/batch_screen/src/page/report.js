@@ -28,8 +28,10 @@ function head(run, program) {
   if (s.derived && typeof s.derived.liquid_m3 === 'number' && s.derived.liquid_m3 > 0) tiles.push(tile(told(s.derived.liquid_m3, 'm³'), 'liquid'));
   if (typeof s.liquid_imbalance === 'number') tiles.push(tile(num(s.liquid_imbalance, 2), 'liquid imbalance'));
   if (typeof s.wall_time_s === 'number') tiles.push(tile(clock(s.wall_time_s), 'computing time'));
+  const fault = s.stopped_by_guard;
+  const stopped = typeof fault === 'string' ? el('p', { class: 'fault', role: 'alert' }, el('b', {}, 'Stopped: '), fault) : null;
   return el('header', {}, el('p', { class: 'over' }, [program, run.name].join(' · ')),
-    el('h1', {}, s.title || run.name), el('p', { class: 'lead' }, sentence), el('div', { class: 'tiles' }, tiles));
+    el('h1', {}, s.title || run.name), el('p', { class: 'lead' }, sentence), stopped, el('div', { class: 'tiles' }, tiles));
 }
 
 function clock(seconds) {
@@ -305,9 +307,29 @@ function finalSection(run) {
   const all = ['all', '', ...columns.map(([, values, text]) => text(values.reduce((a, b) => a + b, 0))),
     percent(of(s.fraction_retained, 'total') ?? lastOf('total'), 4)];
   const parts = [grid(['class', 'diameter, mm', ...columns.map(([name]) => name), 'mass retained'], rows, all)];
+  const divisions = divisionsTable(run.liquid_final);
+  if (divisions) parts.push(el('h3', {}, 'The liquid at the end'), el('p', { class: 'note' }, 'Live bridges are split as if they broke now.'), divisions);
+  const forces = forcesTable(s.physics_budget);
+  if (forces) parts.push(el('h3', {}, 'Physics budget'), forces);
   const budget = budgetTable(s.budget, orderOf(run));
   if (budget) parts.push(el('h3', {}, 'Physics budget'), budget);
   return section('At the end', null, parts);
+}
+
+// Where the liquid is at the end, by division and place.
+function divisionsTable(rows) {
+  if (!Array.isArray(rows) || !rows.length) return null;
+  const texts = rows.map(([division, place, volume, bridges, share]) => [
+    place === 'all' ? division : `– ${place}`, num(1e9 * volume), num(1e9 * bridges), percent(share, 3)]);
+  return grid(['place', 'liquid, µl', 'of it in bridges, µl', 'share'], texts.slice(0, -1), texts[texts.length - 1]);
+}
+
+// What each force has done.
+function forcesTable(budget) {
+  const forces = budget && Array.isArray(budget.forces) ? budget.forces : [];
+  const share = (value) => (typeof value === 'number' ? percent(value, 3) : '–');
+  const rows = forces.map((f) => [String(f.force), share(f.share_of_impulse), share(f.of_that_with_walls), share(f.share_of_dissipation), String(f.verdict ?? '')]);
+  return rows.length ? grid(['force', 'of the impulse', 'of that with walls', 'of the dissipation', 'verdict'], rows) : null;
 }
 
 // A list of rows, of objects, or an object: whatever a summary has.
