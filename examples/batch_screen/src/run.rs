@@ -98,8 +98,8 @@ fn begin<'a, T: Makeup>(
     from: Option<Checkpoint>,
 ) -> Result<Run<'a, T>, RunError> {
     let Some(from) = from else {
-        let simulation =
-            Simulation::new(particles, term, walls, settings).map_err(SceneError::from)?;
+        let simulation = Simulation::new(particles, term, walls, settings)
+            .map_err(|e| scene.at("packing", e))?;
         return Run::new(scene, simulation, derived, job);
     };
     let Checkpoint { core, wet, .. } = from.clone();

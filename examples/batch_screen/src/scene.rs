@@ -175,6 +175,8 @@ pub(crate) struct Screen {
     pub(crate) height_mm: f64,
     /// Depth below the wire axes at which a particle counts as passed and leaves, mm.
     pub(crate) collect_below_mm: f64,
+    /// How the wires are made; exact and cheaper as cylinders.
+    #[serde(default)]
     pub(crate) wires: WireKind,
     /// Sides of the prisms of `wires = "mesh"`.
     #[serde(default = "sixteen")]
@@ -213,10 +215,11 @@ pub(crate) struct PartFile {
     pub(crate) half_side_mm: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum WireKind {
     /// Exact cylinders.
+    #[default]
     Cylinders,
     /// Triangle-mesh prisms.
     Mesh,

@@ -244,7 +244,7 @@ fn missing_and_broken_files() {
     let overlapping = "id,x,y,z,radius,density\n1,0,0,0.05,0.0025,1358\n2,0,0,0.054,0.0025,1358\n";
     fs::write(folder.path().join("bed.csv"), overlapping).unwrap();
     let said = text(&run(folder.path(), &["run", "s.toml"]).stderr);
-    assert!(said.contains("overlaps"), "{said}");
+    assert!(said.contains("overlaps") && said.contains("s.toml, line "), "{said}");
     fs::write(folder.path().join("broken.stl"), "solid x\nfacet nonsense").unwrap();
     let part = "\n[[parts]]\nname = \"frame\"\nstl = \"broken.stl\"\nmaterial = \"steel\"\n";
     let random = "[packing]\nfrom = \"random\"\nsolid_fraction = 0.2\nclearance_mm = 2\n\n";

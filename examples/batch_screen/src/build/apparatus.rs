@@ -30,7 +30,7 @@ pub(crate) fn walls(scene: &Scene, base: &Path) -> Result<Walls, SceneError> {
         let wrong = |source| scene.at(&format!("parts[{k}].stl"), source);
         parts.push(from_file(scene, file, base).map_err(wrong)?);
     }
-    Ok(Walls::new(parts)?)
+    Walls::new(parts).map_err(|e| scene.at("screen", e))
 }
 
 /// The walls in which the bed settles: all of them standing where they are at t = 0, and the floor

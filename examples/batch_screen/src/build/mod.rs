@@ -52,7 +52,7 @@ pub(crate) struct Derived {
 /// Builds a scene, its bed settled if it is to be.
 pub(crate) fn build(scene: &Scene, source: &Source<'_>) -> Result<Built, SceneError> {
     let classes = classes(scene)?;
-    let contact = laws::contact(scene, &classes)?;
+    let contact = laws::contact(scene, &classes).map_err(|e| scene.at("contacts", e))?;
     let dry_limit = Limit::packing(&classes, &contact.stability(&classes)).time_step;
     // The bed settles at a stable step even where the run is to be unstable.
     let dry_step = scene.time_step.filter(|&step| step <= dry_limit).unwrap_or(SHARE * dry_limit);
@@ -83,11 +83,14 @@ fn around(
     class: Vec<u16>,
 ) -> Result<Built, SceneError> {
     let classes = particles.classes().to_vec();
-    let contact = laws::contact(scene, &classes)?;
+    let contact = laws::contact(scene, &classes).map_err(|e| scene.at("contacts", e))?;
     let walls = apparatus::walls(scene, base)?;
     let derived = derive(scene, &classes, class);
     let wet = match &scene.liquid {
-        Some(spec) => Some(laws::wet(scene, spec, &classes, &derived, &walls)?),
+        Some(spec) => {
+            let wet = laws::wet(scene, spec, &classes, &derived, &walls);
+            Some(wet.map_err(|e| scene.at("liquid", e))?)
+        }
         None => None,
     };
     let settings = settings(scene, &classes, &contact, wet.as_ref(), threads);
@@ -95,11 +98,12 @@ fn around(
 }
 
 fn classes(scene: &Scene) -> Result<Vec<Class>, SceneError> {
-    let one = |class: &crate::scene::SizeClass| {
+    let one = |(k, class): (usize, &crate::scene::SizeClass)| {
         let material = scene.material(&class.material).unwrap_or_default();
         Class::new(0.5e-3 * class.diameter_mm, class.density, material)
+            .map_err(|e| scene.at(&format!("classes[{k}]"), e))
     };
-    Ok(scene.classes.iter().map(one).collect::<Result<_, _>>()?)
+    scene.classes.iter().enumerate().map(one).collect()
 }
 
 fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
