@@ -108,7 +108,7 @@ impl Guard {
             if speed > self.speed {
                 let (who, x) = (self.who(one.id), place(one.position));
                 let what = format!(
-                    "{who} at {x} moves at {speed:.3e} m/s; allowed: up to {:.3e} m/s, key \
+                    "{who} at {x} moves at {speed:.3} m/s; allowed: up to {:.3} m/s, key \
                      guard.speed",
                     self.speed
                 );

@@ -319,8 +319,16 @@ function finalSection(run) {
 // Where the liquid is at the end, by division and place.
 function divisionsTable(rows) {
   if (!Array.isArray(rows) || !rows.length) return null;
-  const texts = rows.map(([division, place, volume, bridges, share]) => [
-    place === 'all' ? division : `– ${place}`, num(1e9 * volume), num(1e9 * bridges), percent(share, 3)]);
+  // The table's sums follow what they sum up; here they stand above it. Rounding is shown as 0.
+  const [sorted, parts] = [[], []];
+  for (const row of rows) {
+    if (row[1] === 'all') sorted.push(row, ...parts.splice(0));
+    else parts.push(row);
+  }
+  const texts = sorted.map(([division, place, volume, bridges, share]) => {
+    const real = Math.abs(share) > 1e-9;
+    return [place === 'all' ? division : `– ${place}`, num(real ? 1e9 * volume : 0), num(real ? 1e9 * bridges : 0), percent(real ? share : 0, 3)];
+  });
   return grid(['place', 'liquid, µl', 'of it in bridges, µl', 'share'], texts.slice(0, -1), texts[texts.length - 1]);
 }
 
