@@ -6,7 +6,8 @@ use std::time::Duration;
 use glam::DVec3;
 
 use crate::lists::PairList;
-use crate::{Encounter, Touch};
+use crate::pass::View;
+use crate::{Encounter, Touch, wall_pass};
 
 /// Force and torque on one particle.
 #[derive(Debug, Clone, Copy, Default)]
@@ -43,17 +44,16 @@ pub(crate) struct WallPair<C> {
 }
 
 /// Which list an entry stands in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum List {
     Inside,
     Across,
     Wall { memory: u32 },
 }
 
-/// A pair that wants attention, and where its column is.
+/// Where a pair that wants attention stands. There are many at once when a wet scene starts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Note {
-    pub(crate) encounter: Encounter,
     pub(crate) list: List,
     pub(crate) index: u32,
 }
@@ -104,6 +104,20 @@ impl<C: Copy + Default> Chunk<C> {
         self.sums.fill(Sum::default());
         self.rolls.fill(Roll::default());
         self.notes.clear();
+    }
+
+    /// Who meets in the pair that a note is about, as it was read.
+    pub(crate) fn encounter(&self, view: &View<'_>, note: &Note) -> Encounter {
+        let index = note.index as usize;
+        match note.list {
+            List::Inside => view.meet(self.inside.active[index]),
+            List::Across => view.meet(self.across.active[index]),
+            List::Wall { memory } => {
+                let wall = &self.walls[index];
+                let touch = &wall.memories[memory as usize].touch;
+                Encounter { nearest: memory == 0, ..wall_pass::meeting(view, wall, touch) }
+            }
+        }
     }
 
     /// The column that a note is about.

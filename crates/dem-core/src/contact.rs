@@ -229,6 +229,7 @@ where
         idle
     }
 
+    const SETTLES: bool = false;
     const LANES: bool = true;
     const COUPLES: bool = false;
 

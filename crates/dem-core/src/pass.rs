@@ -51,8 +51,7 @@ impl<'a> View<'a> {
     /// Two particles that meet.
     #[inline(always)]
     pub(crate) fn meet(&self, entry: Entry) -> Encounter {
-        let (p, q) = (&self.places[entry[0] as usize], &self.places[entry[1] as usize]);
-        self.encounter(entry, (q.x - p.x).length() - (p.r + q.r))
+        self.encounter(entry, self.distances::<f64>((), &[entry]).gap)
     }
 
     /// Centres and radii of one side of pairs.
@@ -376,7 +375,7 @@ fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APAR
     if loads.attention != 0 {
         let kind = if INSIDE { List::Inside } else { List::Across };
         for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
-            out.notes.push(Note { encounter: pairs.pair(k).encounter, list: kind, index: at[k] });
+            out.notes.push(Note { list: kind, index: at[k] });
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
 use crate::particles::Particles;
 use crate::pass::{self, View};
-use crate::{Boundary, PairTerm, Profile, SimulationError, Visit, wall_pass};
+use crate::{Boundary, PairTerm, Partner, Profile, SimulationError, Visit, wall_pass};
 
 mod deepest;
 mod leaving;
@@ -256,37 +256,52 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             return Ok(());
         }
         let start = Instant::now();
-        let mut notes: Vec<(usize, Note)> = Vec::new();
-        for (c, chunk) in self.chunks.iter_mut().enumerate() {
-            notes.extend(chunk.notes.drain(..).map(|note| (c, note)));
-        }
-        let key = |n: &Note| (n.encounter.first, n.encounter.second);
-        notes.sort_by_key(|(c, note)| (key(note), *c));
-        let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(notes.len());
-        for (k, (c, note)) in notes.iter().enumerate() {
-            let copy = k > 0 && key(&notes[k - 1].1) == key(note) && note.list == List::Across;
-            if !copy {
-                let column = *self.chunks[*c].column(note.list, note.index);
-                visits.push(Visit { encounter: note.encounter, column, ending: false });
-            }
+        let due = self.due();
+        let first = |k: usize| k == 0 || due[k - 1].bodies != due[k].bodies || !due[k].is_copy();
+        let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(due.len());
+        for due in (0..due.len()).filter(|&k| first(k)).map(|k| &due[k]) {
+            let encounter = self.chunks[due.chunk as usize].encounter(&self.view(), &due.note);
+            let column = *self.chunks[due.chunk as usize].column(due.note.list, due.note.index);
+            visits.push(Visit { encounter, column, ending: false });
         }
         self.lists.visited += visits.len();
         let time = self.time();
         let settled = self.term.settle(&mut visits);
         settled.map_err(|source| SimulationError::Term { time, source })?;
-        let mut visits = visits.iter();
+        let mut visits = visits.into_iter();
         let mut current = None;
-        for (k, (c, note)) in notes.iter().enumerate() {
-            let copy = k > 0 && key(&notes[k - 1].1) == key(note) && note.list == List::Across;
-            if !copy {
+        for (k, due) in due.iter().enumerate() {
+            if first(k) {
                 current = visits.next();
             }
             if let Some(visit) = current {
-                *self.chunks[*c].column(note.list, note.index) = visit.column;
+                let chunk = &mut self.chunks[due.chunk as usize];
+                *chunk.column(due.note.list, due.note.index) = visit.column;
             }
         }
+        drop((due, visits));
+        let finished = self.term.finish();
+        finished.map_err(|source| SimulationError::Term { time, source })?;
         self.profile.settling += start.elapsed();
         Ok(())
+    }
+
+    /// All pairs that want attention in the order of their keys; a pair that stands in two lists is
+    /// there twice.
+    fn due(&mut self) -> Vec<Due> {
+        let mut all = Vec::with_capacity(self.chunks.iter().map(|chunk| chunk.notes.len()).sum());
+        for number in 0..self.chunks.len() {
+            // They are many only when a wet scene starts: nothing is kept for as many again.
+            let notes = std::mem::take(&mut self.chunks[number].notes);
+            let view = self.view();
+            all.extend(notes.into_iter().map(|note| {
+                let encounter = self.chunks[number].encounter(&view, &note);
+                let bodies = (encounter.first, encounter.second);
+                Due { bodies, chunk: number as u32, note }
+            }));
+        }
+        all.sort_unstable_by_key(|due| (due.bodies, due.chunk, due.note.list, due.note.index));
+        all
     }
 
     fn write(&mut self) -> Result<(), SimulationError> {
@@ -344,6 +359,20 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 .map(one)
                 .fold(Moved::default(), both)
         }
+    }
+}
+
+/// A pair that wants attention.
+struct Due {
+    bodies: (u32, Partner),
+    chunk: u32,
+    note: Note,
+}
+
+impl Due {
+    /// Whether this may be the second copy of a pair.
+    fn is_copy(&self) -> bool {
+        self.note.list == List::Across
     }
 }
 

@@ -58,6 +58,9 @@ pub trait PairTerm: Send + Sync {
     /// Whether the column must not be lost, whatever the gap.
     fn live(&self, column: &Self::Column) -> bool;
 
+    /// Whether [`PairTerm::settle`] does anything.
+    const SETTLES: bool = true;
+
     /// Write half: settles all pairs that asked for attention, in the order of their keys.
     ///
     /// # Errors
@@ -72,6 +75,15 @@ pub trait PairTerm: Send + Sync {
     /// pair that stands in two lists. Called now and then; changes nothing but the speed.
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         let _ = each;
+    }
+
+    /// Does what [`PairTerm::settle`] has left to be done once the visits are written back, so that
+    /// not both take memory at the same time.
+    ///
+    /// # Errors
+    /// As [`PairTerm::settle`].
+    fn finish(&mut self) -> Result<(), TermError> {
+        Ok(())
     }
 
     /// Moves to the particle's nearest touch with a wall part what belongs to the part as a whole.
@@ -102,6 +114,7 @@ pub trait PairTerm: Send + Sync {
 /// No interaction at all.
 impl PairTerm for () {
     type Column = ();
+    const SETTLES: bool = false;
 
     fn reach(&self) -> f64 {
         0.0
@@ -143,6 +156,7 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.load(pair, &mut column.0) + self.1.load(pair, &mut column.1)
     }
 
+    const SETTLES: bool = A::SETTLES || B::SETTLES;
     const LANES: bool = A::LANES || B::LANES;
     const COUPLES: bool = A::COUPLES || B::COUPLES;
 
@@ -162,13 +176,22 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
     }
 
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
-        let mut first: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
-        self.0.settle(&mut first)?;
-        visits.iter_mut().zip(first).for_each(|(visit, own)| visit.column.0 = own.column);
-        let mut second: Vec<_> = visits.iter().map(|v| v.part(v.column.1)).collect();
-        self.1.settle(&mut second)?;
-        visits.iter_mut().zip(second).for_each(|(visit, own)| visit.column.1 = own.column);
+        if A::SETTLES {
+            let mut first: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
+            self.0.settle(&mut first)?;
+            visits.iter_mut().zip(first).for_each(|(visit, own)| visit.column.0 = own.column);
+        }
+        if B::SETTLES {
+            let mut second: Vec<_> = visits.iter().map(|v| v.part(v.column.1)).collect();
+            self.1.settle(&mut second)?;
+            visits.iter_mut().zip(second).for_each(|(visit, own)| visit.column.1 = own.column);
+        }
         Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), TermError> {
+        self.0.finish()?;
+        self.1.finish()
     }
 
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
@@ -218,6 +241,7 @@ impl<T: PairTerm> PairTerm for Option<T> {
         self.as_ref().map_or_else(Load::default, |term| term.load(pair, column))
     }
 
+    const SETTLES: bool = T::SETTLES;
     const LANES: bool = T::LANES;
     const COUPLES: bool = T::COUPLES;
 
@@ -240,6 +264,10 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
         self.as_mut().map_or(Ok(()), |term| term.settle(visits))
+    }
+
+    fn finish(&mut self) -> Result<(), TermError> {
+        self.as_mut().map_or(Ok(()), T::finish)
     }
 
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {

@@ -115,11 +115,7 @@ fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
         chunk.overlap = -touch.gap / pair.radii[0];
     }
     if load.attention {
-        chunk.notes.push(Note {
-            encounter: pair.encounter,
-            list: List::Wall { memory: k as u32 },
-            index,
-        });
+        chunk.notes.push(Note { list: List::Wall { memory: k as u32 }, index });
     }
 }
 

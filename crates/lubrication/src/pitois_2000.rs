@@ -51,10 +51,6 @@ pub struct Pitois2000Curve {
     strength: f64,
     /// b², m².
     width_squared: f64,
-    /// ρ at the clearance of contact.
-    contact_ratio: f64,
-    /// c_n at contact, N s/m.
-    contact_coefficient: f64,
     clearance: Clearance,
 }
 
@@ -69,19 +65,21 @@ impl NormalDrag for Pitois2000 {
         let contact_ratio = clearance.contact / clearance.contact.hypot(width_squared.sqrt());
         let allowed = (f64::MIN_POSITIVE, 1.0);
         OutOfRange::within("clearance over bridge width", contact_ratio, allowed)?;
-        let mut curve = Pitois2000Curve {
-            strength,
-            width_squared,
-            contact_ratio,
-            contact_coefficient: 0.0,
-            clearance,
-        };
-        curve.contact_coefficient = curve.open(clearance.contact);
-        Ok(curve)
+        Ok(Pitois2000Curve { strength, width_squared, clearance })
     }
 }
 
 impl Pitois2000Curve {
+    /// ρ at the clearance of contact.
+    fn contact_ratio(&self) -> f64 {
+        self.clearance.contact / self.clearance.contact.hypot(self.width_squared.sqrt())
+    }
+
+    /// c_n at contact, N s/m.
+    fn contact_coefficient(&self) -> f64 {
+        self.open(self.clearance.contact)
+    }
+
     /// K X²/s at the clearance s > 0; X written without cancellation.
     #[inline(always)]
     fn open(&self, clearance: f64) -> f64 {
@@ -103,7 +101,7 @@ impl NormalCurve for Pitois2000Curve {
     #[inline(always)]
     fn coefficient(&self, gap: f64) -> f64 {
         if gap < 0.0 {
-            return self.contact_coefficient * self.clearance.weight(gap);
+            return self.contact_coefficient() * self.clearance.weight(gap);
         }
         self.open(self.clearance.at(gap))
     }
@@ -120,13 +118,13 @@ impl NormalCurve for Pitois2000Curve {
     #[inline]
     fn impulse(&self, gap: f64) -> f64 {
         if gap < 0.0 {
-            return self.contact_coefficient * self.clearance.weight_integral(gap);
+            return self.contact_coefficient() * self.clearance.weight_integral(gap);
         }
         let s = self.clearance.at(gap);
         let ratio = s / s.hypot(self.width_squared.sqrt());
-        let edge = (1.0 + self.contact_ratio) / (1.0 + ratio);
-        let logarithm = (ratio / self.contact_ratio * edge * edge).ln();
-        self.contact_coefficient * gap.min(self.clearance.floor()) + self.strength * logarithm
+        let edge = (1.0 + self.contact_ratio()) / (1.0 + ratio);
+        let logarithm = (ratio / self.contact_ratio() * edge * edge).ln();
+        self.contact_coefficient() * gap.min(self.clearance.floor()) + self.strength * logarithm
     }
 
     fn fade(&self) -> Option<f64> {
@@ -173,8 +171,8 @@ mod tests {
         let b2 = 5e-10 / (PI * 2e-3);
         let far = 6.0 * PI * 0.1 * 4e-6 * b2 * b2 / (4.0 * s.powi(5));
         assert!((drag.coefficient(1e5) / far - 1.0).abs() < 1e-9);
-        let all =
-            drag.strength * ((1.0 + drag.contact_ratio).powi(2) / 4.0 / drag.contact_ratio).ln();
+        let all = drag.strength
+            * ((1.0 + drag.contact_ratio()).powi(2) / 4.0 / drag.contact_ratio()).ln();
         assert!((drag.impulse(1e200) - all).abs() < 1e-13 * drag.strength);
     }
 }

@@ -45,8 +45,6 @@ pub struct Popov2010 {
 pub struct Popov2010Curve {
     scale: f64,
     half_radius: f64,
-    /// Slip resistance at contact, N s/m.
-    contact: f64,
     clearance: Clearance,
 }
 
@@ -72,9 +70,7 @@ impl TangentialDrag for Popov2010 {
         let clearance = self.near.fold(bridge)?;
         let scale = 2.0 * PI * scale(bridge, viscosity, &clearance)?;
         let half_radius = 0.5 * bridge.reduced_radius();
-        let mut curve = Popov2010Curve { scale, half_radius, contact: 0.0, clearance };
-        curve.contact = curve.open(clearance.contact);
-        Ok(curve)
+        Ok(Popov2010Curve { scale, half_radius, clearance })
     }
 }
 
@@ -98,7 +94,7 @@ impl TangentialCurve for Popov2010Curve {
     #[inline(always)]
     fn resistance(&self, gap: f64) -> Resistance {
         let slip = if gap < 0.0 {
-            self.contact * self.clearance.weight(gap)
+            self.open(self.clearance.contact) * self.clearance.weight(gap)
         } else {
             self.open(self.clearance.at(gap))
         };

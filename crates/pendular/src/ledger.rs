@@ -172,29 +172,36 @@ impl Ledger {
         if let Some(step) = moves.iter().find(|step| !fits(step)) {
             return Err(BadMove(*step));
         }
-        let mut order: Vec<usize> = (0..moves.len()).collect();
-        order.sort_by_key(|&k| (moves[k].from, k));
-        let givers: Vec<Account> = order.iter().map(|&k| moves[k].from).collect();
-        let mut first = 0;
-        for same in givers.chunk_by(|a, b| a == b) {
-            let from = same[0];
-            let group = &order[first..first + same.len()];
-            first += same.len();
-            let has = self.volume(from);
-            let asked: f64 = group.iter().map(|&k| moves[k].volume).sum();
-            if asked > has {
-                let scale = has / asked;
-                group.iter().for_each(|&k| moves[k].volume *= scale);
-            }
-            let given: f64 = group.iter().map(|&k| moves[k].volume).sum();
-            // Rounding may ask for a last bit more or less than all: then the account is empty.
-            let left = has - given;
-            *self.entry(from) = if left > f64::EPSILON * has { left } else { 0.0 };
+        let mut order: Vec<u32> = (0..moves.len() as u32).collect();
+        order.sort_unstable_by_key(|&k| (moves[k as usize].from, k));
+        let mut rest = &order[..];
+        while let Some(&first) = rest.first() {
+            let from = moves[first as usize].from;
+            let same = rest.iter().take_while(|&&k| moves[k as usize].from == from).count();
+            let (group, others) = rest.split_at(same);
+            self.give(moves, group);
+            rest = others;
         }
         for step in moves.iter() {
             *self.entry(step.to) += step.volume;
         }
         Ok(())
+    }
+
+    /// Takes the moves of `group` out of the one account that they come from.
+    fn give(&mut self, moves: &mut [Move], group: &[u32]) {
+        let from = moves[group[0] as usize].from;
+        let has = self.volume(from);
+        let sum = |moves: &[Move]| group.iter().map(|&k| moves[k as usize].volume).sum::<f64>();
+        let asked = sum(moves);
+        if asked > has {
+            let scale = has / asked;
+            group.iter().for_each(|&k| moves[k as usize].volume *= scale);
+        }
+        let given = sum(moves);
+        // Rounding may ask for a last bit more or less than all: then the account is empty.
+        let left = has - given;
+        *self.entry(from) = if left > f64::EPSILON * has { left } else { 0.0 };
     }
 
     fn exists(&self, account: Account) -> bool {

@@ -39,11 +39,24 @@ pub struct LiveBridge {
     pub second: Partner,
 }
 
-/// A live bridge and where on the shelf its forces are.
+/// A live bridge, as little of it as it can be made again from, and where on the shelf its forces
+/// are.
 #[derive(Debug, Clone, Copy)]
 struct Seated {
-    live: LiveBridge,
+    split: Split,
+    first: u32,
+    second: Partner,
     seat: u32,
+}
+
+/// A bridge that has formed, between whom and at what gap, m.
+#[derive(Debug, Clone, Copy)]
+struct Forming {
+    account: u32,
+    seat: u32,
+    first: u32,
+    second: Partner,
+    gap: f64,
 }
 
 /// Liquid bridges: they form where films touch, pull, drag, break and hand liquid on.
@@ -66,6 +79,8 @@ where
     ledger: Ledger,
     live: Vec<Option<Seated>>,
     shelf: Shelf<C::Curve, N::Curve, S::Curve>,
+    /// Bridges that have formed and are not yet folded.
+    forming: Vec<Forming>,
     thickness: Vec<f64>,
     wall_thickness: Vec<f64>,
     thickest: f64,
@@ -119,6 +134,7 @@ where
             thickest: 0.0,
             live: Vec::new(),
             shelf: Shelf::default(),
+            forming: Vec::new(),
             counts: Counts::default(),
             capillary_loss: 0.0,
             liquid,
@@ -192,12 +208,12 @@ where
     pub fn shares(&self, bridge: u32) -> [f64; 2] {
         let split = self.live.get(bridge as usize).copied().flatten();
         let volume = self.ledger.volume(Account::Bridge(bridge));
-        split.map_or([0.0; 2], |seated| seated.live.split.shares(volume))
+        split.map_or([0.0; 2], |seated| seated.split.shares(volume))
     }
 
     /// All live bridges.
-    pub fn bridges(&self) -> impl Iterator<Item = &LiveBridge> + '_ {
-        self.live.iter().flatten().map(|seated| &seated.live)
+    pub fn bridges(&self) -> impl Iterator<Item = LiveBridge> + '_ {
+        (0..self.live.len() as u32).filter_map(|account| self.live(account))
     }
 
     /// The tension of a live bridge at `gap` m, N; as in [`pendular_capillary::CapillaryLaw::force`].

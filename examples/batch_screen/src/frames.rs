@@ -42,7 +42,7 @@ fn bridges<T: Makeup>(
 ) -> Vec<BridgeRow> {
     let find =
         |id: u32| particles.binary_search_by_key(&id, |p| p.id).ok().map(|k| particles[k].position);
-    let row = |live: &LiveBridge| {
+    let row = |live: LiveBridge| {
         let x = find(live.first)?;
         let (end, gap) = match live.second {
             Partner::Particle(id) => {
@@ -51,7 +51,7 @@ fn bridges<T: Makeup>(
             }
             Partner::Wall(part) => on_wall(&simulation.boundary().0, part, x, &live.bridge)?,
         };
-        let force = wet.tension(live, gap).unwrap_or(0.0);
+        let force = wet.tension(&live, gap).unwrap_or(0.0);
         let ends = [x.to_array(), end.to_array()];
         Some(BridgeRow { ends, volume: live.bridge.volume(), force, gap })
     };

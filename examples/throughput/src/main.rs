@@ -123,7 +123,7 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         cli.steps,
         result.seconds,
         result.particles as f64 * cli.steps as f64 / result.seconds,
-        measure::peak_memory()
+        result.memory
     );
     if let Some(path) = &cli.out {
         std::fs::write(path, &result.centres)?;

@@ -9,6 +9,8 @@ use pendular::dem::{DVec3, PairTerm, Particles, Settings, Simulation, Simulation
 pub(crate) struct Measured {
     pub(crate) particles: usize,
     pub(crate) seconds: f64,
+    /// Peak resident memory up to the end of the run, MB.
+    pub(crate) memory: f64,
     /// State and profile at the end, for people.
     pub(crate) check: String,
     /// Centres at the end, as CSV.
@@ -30,7 +32,7 @@ pub(crate) fn run<T: PairTerm>(
     let start = Instant::now();
     simulation.advance(steps)?;
     let seconds = start.elapsed().as_secs_f64();
-    let after = simulation.profile();
+    let (after, memory) = (simulation.profile(), peak_memory());
     let (mut contacts, mut overlap, mut pairs) = (0_u64, 0.0, 0_u64);
     simulation.for_each_pair(|encounter, _| {
         pairs += 1;
@@ -58,7 +60,7 @@ pub(crate) fn run<T: PairTerm>(
         part(after.integration, before.integration),
     );
     let centres = centres(&simulation);
-    Ok(Measured { particles: n, seconds, check, centres })
+    Ok(Measured { particles: n, seconds, memory, check, centres })
 }
 
 fn centres<T: PairTerm>(simulation: &Simulation<T, MeshWalls>) -> String {
@@ -69,7 +71,7 @@ fn centres<T: PairTerm>(simulation: &Simulation<T, MeshWalls>) -> String {
 }
 
 /// Peak resident memory of this process, MB; 0 where the system does not say.
-pub(crate) fn peak_memory() -> f64 {
+fn peak_memory() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmHWM:"));
     let kilobytes = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());

@@ -104,6 +104,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
         visits.sort_by_key(|v| (v.encounter.first, v.encounter.second));
         let time = self.time();
-        self.term.settle(&mut visits).map_err(|source| SimulationError::Term { time, source })
+        let settled = self.term.settle(&mut visits).and_then(|()| self.term.finish());
+        settled.map_err(|source| SimulationError::Term { time, source })
     }
 }

@@ -8,8 +8,8 @@ use pendular_transfer::formation::{self, WetMate};
 use pendular_transfer::{RuptureLaw, TransferError, film};
 
 use super::bodies::parameter;
-use super::shelf::{Far, Hold};
-use super::{LiveBridge, Seated, Wet, WetError};
+use super::shelf::Far;
+use super::{Forming, LiveBridge, Seated, Wet, WetError};
 use crate::{Account, Move, PairLaws};
 
 /// Rupture distance and curves of a bridge by such laws.
@@ -75,18 +75,18 @@ where
         (self.smallest_v_star * (2.0 * reduced).powi(3)).max(f64::MIN_POSITIVE)
     }
 
-    pub(super) fn contact_angles(&self, encounter: &Encounter) -> [f64; 2] {
+    pub(super) fn contact_angles(&self, first: u32, second: Partner) -> [f64; 2] {
         let of = |id: u32| {
             let class = usize::from(self.bodies.class[id as usize]);
             self.liquid.particle_angles[usize::from(self.bodies.materials[class])]
         };
-        let second = match encounter.second {
+        let second = match second {
             Partner::Particle(id) => of(id),
             Partner::Wall(part) => {
                 self.liquid.wall_angles[usize::from(self.bodies.wall_materials[part as usize])]
             }
         };
-        [of(encounter.first), second]
+        [of(first), second]
     }
 
     /// What both bodies would give to a new bridge.
@@ -106,19 +106,12 @@ where
         ])
     }
 
-    /// Folds the bridge of a pair into its column, now that its volume is known.
-    pub(super) fn fold(&mut self, encounter: &Encounter, account: u32) -> Result<Hold, WetError> {
+    /// Folds a bridge, now that its volume is known, and puts what acts in it on the shelf.
+    pub(super) fn fold(&mut self, forming: &Forming) -> Result<(), WetError> {
+        let &Forming { account, seat, first, second, .. } = forming;
         let volume = self.ledger.volume(Account::Bridge(account));
-        let (first, second) = (encounter.first, encounter.second);
         let refuse = |source| WetError::Law { first, second, volume, source };
-        let mate = match second {
-            Partner::Particle(id) => Mate::Sphere { radius: self.radius(id) },
-            Partner::Wall(part) => Mate::Wall { half_side: self.bodies.half_sides[part as usize] },
-        };
-        let angles = self.contact_angles(encounter);
-        let tension = self.liquid.surface_tension;
-        let bridge =
-            Bridge::new(self.radius(first), mate, volume, angles, tension).map_err(refuse)?;
+        let bridge = self.bridge(first, second, volume).map_err(refuse)?;
         let split = self.splits.of(&bridge);
         let (split, extrapolated) =
             split.map_err(|source| WetError::Transfer { first, second, volume, source })?;
@@ -128,10 +121,24 @@ where
         let strange = laws.capillary.validity().check(&bridge).is_err()
             || laws.rupture.validity().check(&bridge).is_err();
         self.counts.extrapolated += u64::from(strange || extrapolated);
-        let seat = self.shelf.put(far);
-        self.live.resize((account as usize + 1).max(self.live.len()), None);
-        self.live[account as usize] = Some(Seated { live, seat });
-        Ok(Hold::new(account, seat))
+        self.shelf.put(seat, far);
+        self.live[account as usize] = Some(Seated { split, first, second, seat });
+        Ok(())
+    }
+
+    /// A bridge of a volume between two bodies.
+    pub(super) fn bridge(
+        &self,
+        first: u32,
+        second: Partner,
+        volume: f64,
+    ) -> Result<Bridge, OutOfRange> {
+        let mate = match second {
+            Partner::Particle(id) => Mate::Sphere { radius: self.radius(id) },
+            Partner::Wall(part) => Mate::Wall { half_side: self.bodies.half_sides[part as usize] },
+        };
+        let angles = self.contact_angles(first, second);
+        Bridge::new(self.radius(first), mate, volume, angles, self.liquid.surface_tension)
     }
 
     /// The laws of the bridges with a body.

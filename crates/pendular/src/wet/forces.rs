@@ -6,7 +6,8 @@ use pendular_dem_core::{Pair, StabilityLoad};
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
 
 use super::shelf::Far;
-use super::{LiveBridge, Wet};
+use super::{LiveBridge, Seated, Wet};
+use crate::Account;
 
 /// What is kept of a bridge with these laws.
 pub(super) type FarOf<C, N, S> =
@@ -39,14 +40,18 @@ where
 {
     /// The live bridge of an account.
     #[must_use]
-    pub fn live(&self, bridge: u32) -> Option<&LiveBridge> {
-        self.live.get(bridge as usize)?.as_ref().map(|seated| &seated.live)
+    pub fn live(&self, bridge: u32) -> Option<LiveBridge> {
+        let Seated { split, first, second, .. } = *self.live.get(bridge as usize)?.as_ref()?;
+        let volume = self.ledger.volume(Account::Bridge(bridge));
+        // It was made so when it formed.
+        let bridge = self.bridge(first, second, volume).ok()?;
+        Some(LiveBridge { bridge, split, first, second })
     }
 
     /// A live bridge with what acts in it.
-    pub(super) fn seated(&self, bridge: u32) -> Option<(&LiveBridge, &FarOf<C, N, S>)> {
+    pub(super) fn seated(&self, bridge: u32) -> Option<(LiveBridge, &FarOf<C, N, S>)> {
         let seated = self.live.get(bridge as usize)?.as_ref()?;
-        Some((&seated.live, self.shelf.far(seated.seat)?))
+        Some((self.live(bridge)?, self.shelf.far(seated.seat)?))
     }
 
     /// What acts in the live bridge of an account, by the same laws as the step; `None` if there is

@@ -57,26 +57,42 @@ pub(super) struct Shelf<C, N, S> {
     contact: Vec<Pull>,
     far: Vec<Far<C, N, S>>,
     free: Vec<u32>,
+    /// Seats given out, taken or free.
+    seats: u32,
 }
 
 impl<C, N, S> Default for Shelf<C, N, S> {
     fn default() -> Self {
-        Self { contact: Vec::new(), far: Vec::new(), free: Vec::new() }
+        Self { contact: Vec::new(), far: Vec::new(), free: Vec::new(), seats: 0 }
     }
 }
 
 impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     /// A seat for a new bridge.
-    pub(super) fn put(&mut self, far: Far<C, N, S>) -> u32 {
+    pub(super) fn seat(&mut self) -> u32 {
+        self.free.pop().unwrap_or_else(|| {
+            self.seats += 1;
+            self.seats - 1
+        })
+    }
+
+    /// Puts there what acts in the bridge; new seats are taken in their order.
+    pub(super) fn put(&mut self, seat: u32, far: Far<C, N, S>) {
         let contact = Pull::contact(&far.curves);
-        if let Some(seat) = self.free.pop() {
-            self.contact[seat as usize] = contact;
-            self.far[seat as usize] = far;
-            return seat;
+        let seat = seat as usize;
+        if seat < self.far.len() {
+            (self.contact[seat], self.far[seat]) = (contact, far);
+        } else {
+            self.contact.push(contact);
+            self.far.push(far);
         }
-        self.contact.push(contact);
-        self.far.push(far);
-        (self.far.len() - 1) as u32
+    }
+
+    /// Makes room on all seats that were given out.
+    pub(super) fn reserve(&mut self) {
+        let more = (self.seats as usize).saturating_sub(self.far.len());
+        self.contact.reserve(more);
+        self.far.reserve(more);
     }
 
     /// The seat is free again.
@@ -157,18 +173,32 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     pub(super) fn arrange(&mut self, bridges: usize, each: &mut EachColumn<'_, Hold>) -> Vec<u32> {
         let mut seats = vec![DRY; bridges];
         let mut order = Vec::with_capacity(self.far.len());
+        let mut taken = vec![false; self.far.len()];
         each(&mut |hold| {
             let Some(seat) = seats.get_mut(hold.bridge as usize) else { return };
             // A pair may stand in two lists.
             if *seat == DRY {
                 *seat = order.len() as u32;
-                order.push(hold.seat as usize);
+                order.push(hold.seat);
+                taken[hold.seat as usize] = true;
             }
             hold.seat = *seat;
         });
-        self.contact = order.iter().map(|&seat| self.contact[seat]).collect();
-        self.far = order.iter().map(|&seat| self.far[seat]).collect();
+        let live = order.len();
+        order.extend((0..taken.len() as u32).filter(|&seat| !taken[seat as usize]));
+        for new in 0..live {
+            // What was there has been moved on, maybe several times.
+            let mut old = order[new] as usize;
+            while old < new {
+                old = order[old] as usize;
+            }
+            self.contact.swap(new, old);
+            self.far.swap(new, old);
+        }
+        self.contact.truncate(live);
+        self.far.truncate(live);
         self.free.clear();
+        self.seats = live as u32;
         seats
     }
 }

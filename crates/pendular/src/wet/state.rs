@@ -3,7 +3,7 @@
 use pendular_capillary::CapillaryLaw;
 use pendular_dem_core::Partner;
 use pendular_lubrication::{NormalDrag, TangentialDrag};
-use pendular_pair::{Bridge, Mate, OutOfRange};
+use pendular_pair::{Mate, OutOfRange};
 use pendular_transfer::Split;
 
 use super::shelf::{Hold, Shelf};
@@ -70,11 +70,7 @@ where
         };
         WetState {
             ledger: self.ledger.clone(),
-            live: self
-                .live
-                .iter()
-                .map(|one| one.as_ref().map(|seated| plain(&seated.live)))
-                .collect(),
+            live: (0..self.live.len() as u32).map(|k| self.live(k).as_ref().map(plain)).collect(),
             counts: self.counts,
             thickest: self.thickest,
             capillary_loss: self.capillary_loss,
@@ -94,24 +90,10 @@ where
             let quantity = "number of films in the state";
             return Err(OutOfRange { quantity, value, allowed: (bodies, bodies) }.into());
         }
-        let tension = self.liquid.surface_tension;
-        let live = |state: LiveState| -> Result<LiveBridge, OutOfRange> {
-            let mate = match state.second {
-                Partner::Particle(_) => Mate::Sphere { radius: state.mate },
-                Partner::Wall(_) => Mate::Wall { half_side: state.mate },
-            };
-            let LiveState { radius, volume, contact_angles, first, second, .. } = state;
-            let bridge = Bridge::new(radius, mate, volume, contact_angles, tension)?;
-            Ok(LiveBridge { bridge, split: Split::new(state.transfer_ratio)?, first, second })
-        };
         (self.live, self.shelf) = (Vec::with_capacity(state.live.len()), Shelf::default());
         for one in state.live {
-            let live = one.map(live).transpose()?;
-            let seated = live.map(|live| -> Result<Seated, OutOfRange> {
-                let seat = self.shelf.put(self.curves(&live)?);
-                Ok(Seated { live, seat })
-            });
-            self.live.push(seated.transpose()?);
+            let seated = one.map(|state| self.seat(state)).transpose()?;
+            self.live.push(seated);
         }
         self.ledger = state.ledger;
         self.counts = state.counts;
@@ -124,6 +106,17 @@ where
         self.thickest = state.thickest;
         self.capillary_loss = state.capillary_loss;
         Ok(())
+    }
+
+    /// Gives a stored bridge a seat.
+    fn seat(&mut self, state: LiveState) -> Result<Seated, OutOfRange> {
+        let LiveState { first, second, volume, .. } = state;
+        let (bridge, split) =
+            (self.bridge(first, second, volume)?, Split::new(state.transfer_ratio)?);
+        let far = self.curves(&LiveBridge { bridge, split, first, second })?;
+        let seat = self.shelf.seat();
+        self.shelf.put(seat, far);
+        Ok(Seated { split, first, second, seat })
     }
 
     /// The column of a pair that holds the live bridge of an account; that of a pair without a

@@ -9,9 +9,9 @@ use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialD
 use pendular_pair::{Bridge, Mate, OutOfRange};
 use pendular_transfer::formation;
 
-use super::Wet;
 use super::act::Pulls;
 use super::shelf::Hold;
+use super::{Forming, Wet};
 use crate::{Account, Move};
 
 impl<C, N, S> PairTerm for Wet<C, N, S>
@@ -70,14 +70,14 @@ where
 
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
         let mut moves = Vec::with_capacity(2 * visits.len());
-        let mut forming = Vec::new();
+        let mut forming: Vec<[u32; 3]> = Vec::with_capacity(visits.len());
         for (k, visit) in visits.iter_mut().enumerate() {
             let encounter = visit.encounter;
             if let Some(bridge) = visit.column.bridge() {
                 moves.extend(self.rupture(&encounter, bridge));
             } else if !visit.ending {
                 let bridge = self.ledger.open_bridge();
-                forming.push((k, bridge, moves.len()));
+                forming.push([k as u32, bridge, moves.len() as u32]);
                 moves.extend(self.claims(&encounter, bridge)?);
             }
         }
@@ -91,11 +91,15 @@ where
             self.ledger.close_bridge(bridge);
             self.counts.ruptured += 1;
         }
-        for (k, bridge, given) in forming {
+        self.forming.reserve(forming.len());
+        for [k, bridge, given] in forming {
+            let (k, given) = (k as usize, given as usize);
             let volume = self.ledger.volume(Account::Bridge(bridge));
             if volume >= self.smallest(&visits[k].encounter) {
-                visits[k].column = self.fold(&visits[k].encounter, bridge)?;
-                self.lose(bridge, visits[k].encounter.gap, -1.0);
+                let Encounter { first, second, gap, .. } = visits[k].encounter;
+                let seat = self.shelf.seat();
+                visits[k].column = Hold::new(bridge, seat);
+                self.forming.push(Forming { account: bridge, seat, first, second, gap });
                 self.counts.formed += 1;
             } else {
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
@@ -107,6 +111,19 @@ where
         for step in &moves {
             self.measure(step.from)?;
             self.measure(step.to)?;
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), TermError> {
+        let forming = std::mem::take(&mut self.forming);
+        self.shelf.reserve();
+        let accounts = forming.iter().fold(self.live.len(), |n, f| n.max(f.account as usize + 1));
+        self.live.reserve(accounts - self.live.len());
+        self.live.resize(accounts, None);
+        for bridge in forming {
+            self.fold(&bridge)?;
+            self.lose(bridge.account, bridge.gap, -1.0);
         }
         Ok(())
     }
@@ -177,7 +194,7 @@ where
             return (!forms).then(Pulls::default);
         };
         let speed = pair.separation_speed.hypot(pair.slip.length());
-        let live = &self.live[bridge as usize].as_ref()?.live;
+        let live = self.live(bridge)?;
         let dynamic = self.laws(live.second).dynamic.curve(&live.bridge);
         let factor = dynamic.map_or(1.0, |curve| curve.factor(speed));
         let rupture = self.shelf.rupture(column)?;
