@@ -1,8 +1,9 @@
 //! Where the liquid is: whatever forms, breaks, leaves or is taken away, none of it is lost.
 
 use pendular::{Account, Ledger, MeshWalls, Move, SplitMethod};
+use pendular_contact::Linear;
 use pendular_dem_core::{
-    Boundary, Class, DVec3, NoWalls, PairTerm, Particles, Settings, Simulation,
+    Boundary, Class, Contact, DVec3, NoWalls, PairTerm, Particles, Settings, Simulation,
 };
 use pendular_pair::Mate;
 use pendular_transfer::{Split, film, formation};
@@ -10,6 +11,7 @@ use pendular_walls::{Harmonic, Motion, Part, Plane, Shape, Walls, Wire, build};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
 
+use crate::lone_pairs::LonePairs;
 use crate::rig::{self, AnyWet, Rub};
 
 const RUB: Rub = Rub { stiffness: 1e4, restitution: 0.8, friction: 0.4, rolling: 2e-5 };
@@ -106,16 +108,39 @@ fn state<B: Boundary, C: PairTerm>(simulation: &Simulation<(C, AnyWet), B>) -> V
 }
 
 fn wet_run(change: impl FnOnce(&mut Settings)) -> Vec<u64> {
+    wet_run_of(change, |contact, wet| (contact, wet), |term| &term.1)
+}
+
+/// A run of contact and liquid in whatever term they are put.
+fn wet_run_of<T: PairTerm>(
+    change: impl FnOnce(&mut Settings),
+    term: impl FnOnce(Contact<Linear>, AnyWet) -> T,
+    wet_of: impl Fn(&T) -> &AnyWet,
+) -> Vec<u64> {
     let (particles, walls) = shaken(10);
     let wet = rig::any_wet(&particles, Some(&walls), films(&particles));
-    let term = (rig::contact(particles.classes(), RUB), wet);
+    let term = term(rig::contact(particles.classes(), RUB), wet);
     let mut settings = Settings::new(5e-6);
     change(&mut settings);
     let mut simulation = Simulation::new(particles, term, MeshWalls(walls), settings).unwrap();
     simulation.advance(1_500).unwrap();
-    let counts = simulation.term().1.counts();
+    let wet = wet_of(simulation.term());
+    let counts = wet.counts();
     assert!(counts.formed > 1_000 && counts.ruptured > 300, "{counts:?}");
-    state(&simulation)
+    let mut all = rig::bits(&simulation);
+    let ledger = wet.ledger();
+    all.extend(ledger.films().iter().chain(ledger.walls()).map(|v| v.to_bits()));
+    all
+}
+
+#[test]
+fn four_pairs_at_a_time_and_one_at_a_time_give_a_wet_run_of_the_same_bits() {
+    let four = wet_run(|_| ());
+    let lone = wet_run_of(|_| (), |contact, wet| LonePairs((contact, wet)), |term| &term.0.1);
+    assert!(four == lone);
+    // A term that is absent changes no bit either.
+    let none = |contact, wet| ((contact, wet), None::<Contact<Linear>>);
+    assert!(four == wet_run_of(|_| (), none, |term| &term.0.1));
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod laws;
 mod layering;
 mod liquid;
 mod liquid_walls;
+mod lone_pairs;
 mod mesh_walls;
 mod pull_off;
 mod rig;

@@ -113,6 +113,9 @@ pub(crate) fn find<C>(
             list.push(entry);
         }
     }
+    // Grown by doubling; after the first time they hardly change.
+    inside.outer.shrink_to(inside.outer.len() / 8 * 9);
+    across.outer.shrink_to(across.outer.len() / 8 * 9);
 }
 
 #[cfg(test)]

@@ -258,7 +258,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let start = Instant::now();
         let due = self.due();
         let first = |k: usize| k == 0 || due[k - 1].bodies != due[k].bodies || !due[k].is_copy();
-        let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(due.len());
+        let count = (0..due.len()).filter(|&k| first(k)).count();
+        let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(count);
         for due in (0..due.len()).filter(|&k| first(k)).map(|k| &due[k]) {
             let encounter = self.chunks[due.chunk as usize].encounter(&self.view(), &due.note);
             let column = *self.chunks[due.chunk as usize].column(due.note.list, due.note.index);

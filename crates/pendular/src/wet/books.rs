@@ -106,6 +106,11 @@ where
         ])
     }
 
+    /// Whether there is enough in an account for a bridge.
+    pub(super) fn forms(&self, account: u32, encounter: &Encounter) -> bool {
+        self.ledger.volume(Account::Bridge(account)) >= self.smallest(encounter)
+    }
+
     /// Folds a bridge, now that its volume is known, and puts what acts in it on the shelf.
     pub(super) fn fold(&mut self, forming: &Forming) -> Result<(), WetError> {
         let &Forming { account, seat, first, second, .. } = forming;

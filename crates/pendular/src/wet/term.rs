@@ -12,7 +12,7 @@ use pendular_transfer::formation;
 use super::act::Pulls;
 use super::shelf::Hold;
 use super::{Forming, Wet};
-use crate::{Account, Move};
+use crate::Move;
 
 impl<C, N, S> PairTerm for Wet<C, N, S>
 where
@@ -91,26 +91,29 @@ where
             self.ledger.close_bridge(bridge);
             self.counts.ruptured += 1;
         }
-        self.forming.reserve(forming.len());
-        for [k, bridge, given] in forming {
-            let (k, given) = (k as usize, given as usize);
-            let volume = self.ledger.volume(Account::Bridge(bridge));
-            if volume >= self.smallest(&visits[k].encounter) {
-                let Encounter { first, second, gap, .. } = visits[k].encounter;
-                let seat = self.shelf.seat();
-                visits[k].column = Hold::new(bridge, seat);
-                self.forming.push(Forming { account: bridge, seat, first, second, gap });
-                self.counts.formed += 1;
-            } else {
+        for &[k, bridge, given] in &forming {
+            if !self.forms(bridge, &visits[k as usize].encounter) {
+                let given = &moves[given as usize..][..2];
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
-                let [first, second] = [back(&moves[given]), back(&moves[given + 1])];
-                self.ledger.book(&mut [first, second])?;
+                self.ledger.book(&mut [back(&given[0]), back(&given[1])])?;
                 self.ledger.close_bridge(bridge);
             }
         }
         for step in &moves {
             self.measure(step.from)?;
             self.measure(step.to)?;
+        }
+        // Very many bridges may form in the first step: what is done with goes first.
+        drop(moves);
+        self.forming.reserve_exact(forming.len());
+        for [k, bridge, _] in forming {
+            let Encounter { first, second, gap, .. } = visits[k as usize].encounter;
+            if self.forms(bridge, &visits[k as usize].encounter) {
+                let seat = self.shelf.seat();
+                visits[k as usize].column = Hold::new(bridge, seat);
+                self.forming.push(Forming { account: bridge, seat, first, second, gap });
+                self.counts.formed += 1;
+            }
         }
         Ok(())
     }
