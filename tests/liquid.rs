@@ -3,7 +3,7 @@
 use pendular::{Account, Ledger, MeshWalls, Move, SplitMethod};
 use pendular_contact::Linear;
 use pendular_dem_core::{
-    Boundary, Class, Contact, DVec3, NoWalls, PairTerm, Particles, Settings, Simulation,
+    Class, Contact, DVec3, NoWalls, PairTerm, Particles, Settings, Simulation,
 };
 use pendular_pair::Mate;
 use pendular_transfer::{Split, film, formation};
@@ -100,13 +100,6 @@ fn the_total_is_kept_and_nothing_is_negative_in_a_shaken_wet_box() {
     assert!(volume <= wet.ledger().in_bridges() * (1.0 + 1e-12));
 }
 
-fn state<B: Boundary, C: PairTerm>(simulation: &Simulation<(C, AnyWet), B>) -> Vec<u64> {
-    let mut all = rig::bits(simulation);
-    let ledger = simulation.term().1.ledger();
-    all.extend(ledger.films().iter().chain(ledger.walls()).map(|v| v.to_bits()));
-    all
-}
-
 fn wet_run(change: impl FnOnce(&mut Settings)) -> Vec<u64> {
     wet_run_of(change, |contact, wet| (contact, wet), |term| &term.1)
 }
@@ -146,7 +139,7 @@ fn four_pairs_at_a_time_and_one_at_a_time_give_a_wet_run_of_the_same_bits() {
 #[test]
 fn neither_threads_nor_skins_change_a_bit_of_a_wet_run() {
     let one = wet_run(|_| ());
-    for threads in [2, 3] {
+    for threads in [2, 3, 8] {
         assert!(wet_run(|s| s.threads = threads) == one, "{threads} threads");
     }
     for (outer, inner) in [(1e-4, 1e-4), (6e-4, 2e-5), (4e-5, 2e-6)] {

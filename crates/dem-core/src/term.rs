@@ -78,7 +78,7 @@ pub trait PairTerm: Send + Sync {
     }
 
     /// Does what [`PairTerm::settle`] has left to be done once the visits are written back, so that
-    /// not both take memory at the same time.
+    /// not both take memory at the same time. A term that wraps another hands this on.
     ///
     /// # Errors
     /// As [`PairTerm::settle`].

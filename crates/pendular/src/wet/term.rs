@@ -69,6 +69,8 @@ where
     }
 
     fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+        // Nothing is left of the last time if the caller keeps to the order of calls.
+        self.finish()?;
         let mut moves = Vec::with_capacity(2 * visits.len());
         let mut forming: Vec<[u32; 3]> = Vec::with_capacity(visits.len());
         for (k, visit) in visits.iter_mut().enumerate() {
