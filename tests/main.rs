@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
 mod curves;
+mod implicit_drag;
 mod laws;
 mod layering;
 mod liquid;

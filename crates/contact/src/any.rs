@@ -135,6 +135,15 @@ impl NormalContact for AnyContact {
             Self::ElasticPlastic(law) => law.damping(overlap),
         }
     }
+
+    #[inline]
+    fn may_pull(&self) -> bool {
+        match self {
+            Self::Linear(law) => law.may_pull(),
+            Self::HertzMindlin(law) => law.may_pull(),
+            Self::ElasticPlastic(law) => law.may_pull(),
+        }
+    }
 }
 
 #[cfg(test)]

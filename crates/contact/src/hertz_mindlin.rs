@@ -129,6 +129,11 @@ impl NormalContact for HertzMindlin {
     fn damping(&self, overlap: f64) -> f64 {
         self.damping * overlap.max(0.0).sqrt().sqrt()
     }
+
+    #[inline]
+    fn may_pull(&self) -> bool {
+        self.dashpot == Dashpot::MayPull
+    }
 }
 
 #[cfg(test)]

@@ -16,4 +16,9 @@ pub trait NormalContact: Copy {
 
     /// Dashpot coefficient at `overlap`, N s/m.
     fn damping(&self, overlap: f64) -> f64;
+
+    /// Whether the dashpot may pull more than the spring pushes while the bodies separate.
+    fn may_pull(&self) -> bool {
+        false
+    }
 }

@@ -149,6 +149,11 @@ impl NormalContact for Linear {
     fn damping(&self, _: f64) -> f64 {
         self.damping
     }
+
+    #[inline]
+    fn may_pull(&self) -> bool {
+        self.dashpot == Dashpot::MayPull
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 
+use crate::implicit::Link;
 use crate::lists::PairList;
 use crate::pass::View;
 use crate::{Encounter, Touch, wall_pass};
@@ -73,6 +74,10 @@ pub(crate) struct Chunk<C> {
     pub(crate) apart: Vec<u32>,
     pub(crate) touches: Vec<Touch>,
     pub(crate) memories: Vec<Memory<C>>,
+    /// Pairs that resist, to be solved for: inside and with walls, and across the border where the
+    /// first particle is the chunk's own. Empty unless the term is implicit.
+    pub(crate) links: Vec<Link>,
+    pub(crate) links_across: Vec<Link>,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -94,6 +99,8 @@ impl<C: Copy + Default> Chunk<C> {
             apart: Vec::new(),
             touches: Vec::new(),
             memories: Vec::new(),
+            links: Vec::new(),
+            links_across: Vec::new(),
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,

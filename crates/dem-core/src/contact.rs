@@ -4,7 +4,7 @@ use pendular_contact::NormalContact;
 use crate::lane::{Lane, Vector};
 use crate::limit;
 use crate::pairs::{Columns, Geometry, Loads, Pairs};
-use crate::{Class, Encounter, Load, Pair, PairTerm};
+use crate::{Class, Encounter, Load, Pair, PairTerm, Resist};
 
 /// A contact law of one pair of classes, or of a class and a wall material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,6 +91,8 @@ pub struct Contact<N> {
     between: Table<N>,
     walls: Vec<PairContact<N>>,
     rolls: bool,
+    /// Whether loads hold dashpot and rolling friction too.
+    resists: bool,
 }
 
 impl<N> std::fmt::Debug for Contact<N> {
@@ -132,7 +134,15 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
         let mass = |k: &usize| classes[*k].mass();
         let heaviest = (0..classes.len()).max_by(|a, b| mass(a).total_cmp(&mass(b))).unwrap_or(0);
         let materials = usize::from(materials);
-        Self { classes: classes.len(), materials, heaviest, between: table, walls, rolls }
+        Self {
+            classes: classes.len(),
+            materials,
+            heaviest,
+            between: table,
+            walls,
+            rolls,
+            resists: true,
+        }
     }
 
     #[inline]
@@ -143,6 +153,10 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
             (Partner::Class(b), Table::Dense(dense)) => dense[row * self.classes + usize::from(b)],
             (_, Table::OnDemand(rule)) => rule(first, second),
         }
+    }
+
+    fn acting(&self) -> Acting {
+        Acting { rolls: self.rolls && self.resists, dashpot: self.resists }
     }
 
     #[inline]
@@ -236,7 +250,7 @@ where
     #[inline(always)]
     fn load(&self, pair: &Pair, mut column: &mut Self::Column) -> Load {
         let law = self.law_of(pair);
-        act((), [&law], self.rolls, &Geometry::of(pair), &mut column).single()
+        act((), [&law], self.acting(), &Geometry::of(pair), &mut column).single()
     }
 
     #[inline(always)]
@@ -255,14 +269,14 @@ where
                     let [first, second] = pairs.classes(k);
                     &dense[usize::from(first) * self.classes + usize::from(second)]
                 });
-                act(pairs.permit, laws, self.rolls, &pairs.geometry, columns)
+                act(pairs.permit, laws, self.acting(), &pairs.geometry, columns)
             }
             Table::OnDemand(rule) => {
                 let laws = L::each(|k| {
                     let [first, second] = pairs.classes(k);
                     rule(first, Partner::Class(second))
                 });
-                act(pairs.permit, L::each(|k| &laws[k]), self.rolls, &pairs.geometry, columns)
+                act(pairs.permit, L::each(|k| &laws[k]), self.acting(), &pairs.geometry, columns)
             }
         }
     }
@@ -273,7 +287,26 @@ where
     }
 
     fn rolls(&self) -> bool {
-        self.rolls
+        self.rolls && self.resists
+    }
+
+    fn leave_resistance(&mut self) {
+        self.resists = false;
+    }
+
+    fn resist(&self, pair: &Pair, column: &Self::Column, _: f64) -> Resist {
+        let overlap = -pair.encounter.gap;
+        if overlap <= 0.0 {
+            return Resist::default();
+        }
+        let law = self.law_of(pair);
+        let repulsion = law.normal.force(overlap, 0.0, &mut column.memory.clone()).max(0.0);
+        Resist {
+            dashpot: law.normal.damping(overlap),
+            pull: if law.normal.may_pull() { f64::INFINITY } else { repulsion },
+            rolling: law.rolling_friction * repulsion,
+            ..Resist::default()
+        }
     }
 
     fn wall_materials(&self) -> Option<usize> {
@@ -300,16 +333,24 @@ where
     }
 }
 
+/// Which parts of a contact are loads; the others are solved for at the end of the step.
+#[derive(Clone, Copy)]
+struct Acting {
+    rolls: bool,
+    dashpot: bool,
+}
+
 /// What acts in pairs side by side; nothing in those that do not touch.
 #[inline(always)]
 fn act<L: Lane, N: NormalContact>(
     permit: L::Permit,
     laws: L::Each<&PairContact<N>>,
-    rolls: bool,
+    acting: Acting,
     pairs: &Geometry<L>,
     columns: &mut impl Columns<Spring<N::Memory>>,
 ) -> Loads<L> {
-    let (gaps, speeds) = (pairs.gap.unpack(), pairs.separation_speed.unpack());
+    let speeds = if acting.dashpot { pairs.separation_speed } else { L::splat(permit, 0.0) };
+    let (gaps, speeds) = (pairs.gap.unpack(), speeds.unpack());
     let mut springs = L::each(|k| *columns.column(k));
     let forces =
         L::each(|k| repulsion(&laws[k].normal, gaps[k], speeds[k], &mut springs[k].memory));
@@ -322,7 +363,7 @@ fn act<L: Lane, N: NormalContact>(
         springs[k].stretch = stretch[k];
         *columns.column(k) = springs[k];
     }
-    let rolling = if rolls {
+    let rolling = if acting.rolls {
         rolling(L::pack(permit, &laws, |law| law.rolling_friction) * repulsion.most(zero), pairs)
     } else {
         Vector::zero(permit)

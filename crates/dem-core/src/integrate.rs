@@ -14,6 +14,18 @@ pub(crate) struct Moved {
     pub(crate) check: f64,
 }
 
+impl Moved {
+    /// What moving both found out.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self { fastest2: self.fastest2.max(other.fastest2), check: self.check + other.check }
+    }
+
+    fn see(&mut self, speed2: f64, velocity: &Velocity) {
+        self.fastest2 = self.fastest2.max(speed2);
+        self.check += speed2 + velocity.w.length_squared();
+    }
+}
+
 /// What a kick gives to a particle of one class.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Push {
@@ -66,6 +78,16 @@ pub(crate) fn integrate<C>(
         let speed2 = v.length_squared();
         moved.fastest2 = moved.fastest2.max(speed2);
         moved.check += speed2 + w.length_squared();
+    }
+    moved
+}
+
+/// x(n+1) = x(n) + `drift` v(n+1/2) alone.
+pub(crate) fn drift(places: &mut [Place], velocities: &[Velocity], drift: f64) -> Moved {
+    let mut moved = Moved::default();
+    for (place, velocity) in places.iter_mut().zip(velocities) {
+        place.x += drift * velocity.v;
+        moved.see(velocity.v.length_squared(), velocity);
     }
     moved
 }

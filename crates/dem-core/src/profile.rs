@@ -11,6 +11,8 @@ pub struct Profile {
     pub walls: Duration,
     /// Settling what pairs share: bridges formed and broken, liquid booked.
     pub settling: Duration,
+    /// Solving for what resists ([`crate::Implicit`]).
+    pub resistance: Duration,
     /// Moving the particles.
     pub integration: Duration,
     /// How often the outer neighbour lists were built.

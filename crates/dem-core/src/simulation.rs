@@ -12,6 +12,7 @@ use crate::pass::{self, View};
 use crate::{Boundary, PairTerm, Partner, Profile, SimulationError, Visit, wall_pass};
 
 mod deepest;
+mod implicit;
 mod leaving;
 mod neighbours;
 mod settings;
@@ -50,6 +51,9 @@ pub struct Simulation<T: PairTerm, B> {
     departures: Vec<Departure>,
     profile: Profile,
     limit: Limit,
+    /// Velocities before the kick, for an implicit term.
+    before: Vec<crate::particles::Velocity>,
+    passes: crate::Passes,
 }
 
 impl<T: PairTerm + std::fmt::Debug, B: std::fmt::Debug> std::fmt::Debug for Simulation<T, B> {
@@ -107,6 +111,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             departures: Vec::new(),
             profile: Profile::default(),
             limit,
+            before: Vec::new(),
+            passes: crate::Passes::default(),
         })
     }
 
@@ -309,7 +315,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let start = Instant::now();
         let h = self.settings.time_step;
         let kick = if self.step == 0 { 0.5 * h } else { h };
-        let moved = self.integrate(kick, h);
+        let moved =
+            if T::IMPLICIT { self.write_implicit(kick, h) } else { self.integrate(kick, h) };
         self.step += 1;
         let time = self.time();
         if !moved.check.is_finite() {
@@ -321,7 +328,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
         self.boundary.move_to(time, time - 0.5 * h);
         self.lists.travel(moved.fastest2.sqrt() * h, self.boundary.speed_bound() * h);
-        self.profile.integration += start.elapsed();
+        if !T::IMPLICIT {
+            self.profile.integration += start.elapsed();
+        }
         Ok(())
     }
 
@@ -337,11 +346,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         };
         let mut parts: Vec<&mut [Roll]> = rolls.chunks_mut(size).collect();
         parts.resize_with(chunks.len(), Default::default);
-        let both = |a: Moved, b: Moved| Moved {
-            fastest2: a.fastest2.max(b.fastest2),
-            check: a.check + b.check,
-        };
-        if chunks.len() > 1 && rayon::current_num_threads() > 1 && self.settings.threads > 1 {
+        let both = |a: Moved, b: Moved| a.with(b);
+        if parallel(chunks.len(), self.settings.threads) {
             chunks
                 .par_iter()
                 .zip(places.par_chunks_mut(size))
@@ -375,6 +381,11 @@ impl Due {
     fn is_copy(&self) -> bool {
         self.note.list == List::Across
     }
+}
+
+/// Whether it pays to hand chunks to threads.
+fn parallel(chunks: usize, threads: usize) -> bool {
+    chunks > 1 && threads > 1 && rayon::current_num_threads() > 1
 }
 
 /// Runs over all chunks, in parallel inside a pool of more than one thread.

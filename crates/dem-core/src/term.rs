@@ -1,7 +1,7 @@
 use crate::lane::Lane;
 use crate::limit;
 use crate::pairs::{Columns, First, Loads, Pairs, Part, Second};
-use crate::{Class, Encounter, Load, Pair};
+use crate::{Class, Encounter, Impulse, Load, Pair, Resist};
 
 /// Any error of a term.
 pub type TermError = Box<dyn std::error::Error + Send + Sync>;
@@ -89,6 +89,31 @@ pub trait PairTerm: Send + Sync {
     /// Moves to the particle's nearest touch with a wall part what belongs to the part as a whole.
     fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
         let _ = (from, to);
+    }
+
+    /// Whether what resists is solved for at the end of the step: only [`crate::Implicit`] does.
+    const IMPLICIT: bool = false;
+
+    /// From now on loads leave out what [`PairTerm::resist`] gives.
+    fn leave_resistance(&mut self) {}
+
+    /// What resists motion in this pair, with drags at `gap` m and contacts as they are in the pair.
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        let _ = (pair, column, gap);
+        Resist::default()
+    }
+
+    /// The impulse of the drag along the line of centres over a slow change of the gap from 0 to
+    /// `gap` m, N s, and the drag there, N s/m.
+    fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
+        let _ = (column, gap);
+        [0.0; 2]
+    }
+
+    /// What the column remembers of the last step's resistance.
+    fn impulse<'a>(&self, column: &'a mut Self::Column) -> Option<&'a mut Impulse> {
+        let _ = column;
+        None
     }
 
     /// Whether the term uses rolling friction, so that the core keeps what that needs.
@@ -221,6 +246,20 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
     fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
         self.0.load_on_limit(pair, &column.0) + self.1.load_on_limit(pair, &column.1)
     }
+
+    fn leave_resistance(&mut self) {
+        self.0.leave_resistance();
+        self.1.leave_resistance();
+    }
+
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        self.0.resist(pair, &column.0, gap) + self.1.resist(pair, &column.1, gap)
+    }
+
+    fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
+        let ([p, c], [q, d]) = (self.0.charge(&column.0, gap), self.1.charge(&column.1, gap));
+        [p + q, c + d]
+    }
 }
 
 /// A term that may be absent: `None` acts in no pair.
@@ -300,10 +339,24 @@ impl<T: PairTerm> PairTerm for Option<T> {
     fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
         self.as_ref().map_or_else(Default::default, |term| term.load_on_limit(pair, column))
     }
+
+    fn leave_resistance(&mut self) {
+        if let Some(term) = self {
+            term.leave_resistance();
+        }
+    }
+
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        self.as_ref().map_or_else(Resist::default, |term| term.resist(pair, column, gap))
+    }
+
+    fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
+        self.as_ref().map_or([0.0; 2], |term| term.charge(column, gap))
+    }
 }
 
 impl<C> Visit<C> {
-    fn part<D>(&self, column: D) -> Visit<D> {
+    pub(crate) fn part<D>(&self, column: D) -> Visit<D> {
         Visit { encounter: self.encounter, column, ending: self.ending }
     }
 }

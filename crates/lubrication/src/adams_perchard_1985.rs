@@ -84,6 +84,11 @@ impl NormalCurve for AdamsPerchard1985Curve {
         self.strength * (gap.min(floor) / contact + logarithm)
     }
 
+    #[inline]
+    fn clearance(&self, gap: f64) -> f64 {
+        self.clearance.at(gap)
+    }
+
     fn fade(&self) -> Option<f64> {
         Some(self.clearance.fade())
     }

@@ -181,6 +181,14 @@ impl NormalCurve for AnyNormalCurve {
         }
     }
 
+    #[inline]
+    fn clearance(&self, gap: f64) -> f64 {
+        match self {
+            Self::AdamsPerchard1985(curve) => curve.clearance(gap),
+            Self::Pitois2000(curve) => curve.clearance(gap),
+        }
+    }
+
     fn fade(&self) -> Option<f64> {
         match self {
             Self::AdamsPerchard1985(curve) => curve.fade(),

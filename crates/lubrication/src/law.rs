@@ -33,6 +33,13 @@ pub trait NormalCurve: Copy {
         None
     }
 
+    /// The clearance at `gap`, m, over which the coefficient changes by its own size: whoever moves
+    /// the bodies by much less takes it as constant. 0, the default, where that is not known.
+    fn clearance(&self, gap: f64) -> f64 {
+        let _ = gap;
+        0.0
+    }
+
     /// G(S) = ∫ c_n dS from gap 0 to `gap`, N s: the impulse that a slow change of the gap costs.
     fn impulse(&self, gap: f64) -> f64;
 }

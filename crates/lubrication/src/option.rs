@@ -44,6 +44,11 @@ impl<C: NormalCurve> NormalCurve for Option<C> {
     }
 
     #[inline]
+    fn clearance(&self, gap: f64) -> f64 {
+        self.as_ref().map_or(0.0, |curve| curve.clearance(gap))
+    }
+
+    #[inline]
     fn impulse(&self, gap: f64) -> f64 {
         self.as_ref().map_or(0.0, |curve| curve.impulse(gap))
     }

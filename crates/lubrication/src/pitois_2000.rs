@@ -127,6 +127,11 @@ impl NormalCurve for Pitois2000Curve {
         self.contact_coefficient() * gap.min(self.clearance.floor()) + self.strength * logarithm
     }
 
+    #[inline]
+    fn clearance(&self, gap: f64) -> f64 {
+        self.clearance.at(gap)
+    }
+
     fn fade(&self) -> Option<f64> {
         Some(self.clearance.fade())
     }

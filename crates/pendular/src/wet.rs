@@ -86,6 +86,8 @@ where
     thickest: f64,
     counts: Counts,
     capillary_loss: f64,
+    /// Whether loads hold the drags too.
+    drags: bool,
 }
 
 impl<C, N, S> std::fmt::Debug for Wet<C, N, S>
@@ -137,6 +139,7 @@ where
             forming: Vec::new(),
             counts: Counts::default(),
             capillary_loss: 0.0,
+            drags: true,
             liquid,
             between,
             with_walls,

@@ -130,9 +130,12 @@ impl<L: Lane> Pulls<L> {
         }
     }
 
-    /// What bridges do, given their forces.
+    /// What bridges do, given their forces; their pull alone unless they `drag` too.
     #[inline(always)]
-    pub(super) fn act(&self, pairs: &Geometry<L>) -> Loads<L> {
+    pub(super) fn act(&self, pairs: &Geometry<L>, drag: bool) -> Loads<L> {
+        if !drag {
+            return Loads { tension: self.tension, ..Loads::none(pairs.gap.permit()) };
+        }
         let mut loads = Loads {
             tension: self.tension + self.drag * pairs.separation_speed,
             shear: -(pairs.slip * self.slip),

@@ -152,6 +152,12 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
+    /// What is kept of a pair's bridge.
+    #[inline]
+    pub(super) fn held(&self, hold: &Hold) -> Option<&Far<C, N, S>> {
+        self.far.get(hold.seat as usize)
+    }
+
     /// What is kept at a seat.
     pub(super) fn far(&self, seat: u32) -> Option<&Far<C, N, S>> {
         self.far.get(seat as usize)

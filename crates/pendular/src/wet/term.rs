@@ -3,7 +3,7 @@
 use pendular_capillary::CapillaryLaw;
 use pendular_dem_core::{
     Class, Columns, EachColumn, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs,
-    StabilityLoad, TermError, Visit,
+    Resist, StabilityLoad, TermError, Visit,
 };
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
 use pendular_pair::{Bridge, Mate, OutOfRange};
@@ -46,7 +46,7 @@ where
     fn load(&self, pair: &Pair, column: &mut Self::Column) -> Load {
         let near = self.shelf.pull(column, pair.encounter.gap);
         match near.or_else(|| self.apart(pair, column)) {
-            Some(pulls) => pulls.act(&Geometry::of(pair)).single(),
+            Some(pulls) => pulls.act(&Geometry::of(pair), self.drags).single(),
             None => Load { attention: true, ..Load::default() },
         }
     }
@@ -58,7 +58,7 @@ where
         columns: &mut impl Columns<Hold>,
     ) -> Loads<L> {
         match self.shelf.pulls(pairs, columns) {
-            Some(pulls) => pulls.act(&pairs.geometry),
+            Some(pulls) => pulls.act(&pairs.geometry, self.drags),
             None => self.look_apart(pairs, columns),
         }
     }
@@ -155,6 +155,27 @@ where
         classes.iter().map(one).collect()
     }
 
+    fn leave_resistance(&mut self) {
+        self.drags = false;
+    }
+
+    fn resist(&self, _: &Pair, column: &Hold, gap: f64) -> Resist {
+        let Some(far) = self.shelf.held(column) else { return Resist::default() };
+        let (_, normal, tangential) = &far.curves;
+        let across = tangential.resistance(gap);
+        Resist {
+            drag: normal.coefficient(gap),
+            clearance: normal.clearance(gap),
+            across: [across.slip, across.coupling, across.rolling],
+            ..Resist::default()
+        }
+    }
+
+    fn charge(&self, column: &Hold, gap: f64) -> [f64; 2] {
+        let far = self.shelf.held(column);
+        far.map_or([0.0; 2], |far| [far.curves.1.impulse(gap), far.curves.1.coefficient(gap)])
+    }
+
     fn load_on_limit(&self, pair: &Pair, column: &Hold) -> StabilityLoad {
         let bridge = column.bridge();
         bridge.map_or_else(Default::default, |b| self.drag_on_limit(b, pair.encounter.gap))
@@ -185,7 +206,8 @@ where
             attention |= u32::from(pull.is_none()) << k;
             pulls[k] = pull.unwrap_or_default();
         }
-        Loads { attention, ..Pulls::<L>::side_by_side(pairs.permit, &pulls).act(&pairs.geometry) }
+        let pulls = Pulls::<L>::side_by_side(pairs.permit, &pulls);
+        Loads { attention, ..pulls.act(&pairs.geometry, self.drags) }
     }
 
     /// What acts in a pair without bridge or beyond its static rupture distance; `None` if a bridge

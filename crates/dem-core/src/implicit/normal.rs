@@ -1,0 +1,178 @@
+//! The impulse along the line of centres that one pair wants.
+
+use super::Resist;
+
+/// A pair is taken to be linear over a step in which its gap changes by less than this share of
+/// its clearance: the error is below 1e-6 of the drag's impulse.
+const LINEAR: f64 = 2e-3;
+/// Of the search for a speed, relative to the speeds before.
+const TOLERANCE: f64 = 1e-13;
+const MOST_ITERATIONS: u32 = 60;
+
+/// The weight θ of the velocity after the step, from g = h c/m: the decay of a free pair is exp(−g)
+/// and its terminal speed is force over drag, both exactly.
+///
+/// ```text
+/// θ = 1/(1 − exp(−g)) − 1/g          1/2 for g → 0, 1 for g → ∞
+/// ```
+pub(super) fn weight(g: f64) -> f64 {
+    if g < 0.4 {
+        let g2 = g * g;
+        return 0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)));
+    }
+    let left = if g < 40.0 { (-g).exp() } else { 0.0 };
+    1.0 / (1.0 - left) - 1.0 / g
+}
+
+/// What decides the impulse p of a pair along its line of centres, p > 0 driving the bodies apart:
+///
+/// ```text
+/// p = −[G(S + θ h u) − G(charged)] − h min(γ ((1 − θ) u₀ + θ u), pull)      u = a + κ
+/// ```
+///
+/// u is the rate of the gap after the step, u₀ before it, a the speed of separation along the
+/// normal at the step's start, κ what the turning line of centres adds to it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Normal {
+    gap: f64,
+    charged: f64,
+    rate: f64,
+    turn: f64,
+    weight: f64,
+    duration: f64,
+    dashpot: f64,
+    pull: f64,
+    /// 1/m_i + 1/m_j, 1/kg.
+    mobility: f64,
+    /// The linear pair: p = −(offset + slope a).
+    offset: f64,
+    slope: f64,
+    answer: f64,
+    exact: bool,
+}
+
+impl Normal {
+    /// `rate` is u₀, `turn` κ, `speed` a of the velocities after the kick.
+    pub(super) fn new(
+        resist: &Resist,
+        [gap, charged]: [f64; 2],
+        [rate, turn, speed]: [f64; 3],
+        duration: f64,
+        mobility: f64,
+    ) -> Self {
+        let Resist { drag, dashpot, pull, clearance, .. } = *resist;
+        let weight = weight(duration * (drag + dashpot) * mobility);
+        let fresh = gap - (1.0 - weight) * duration * rate;
+        let charged = if charged.is_finite() { charged } else { fresh };
+        let slope = weight * duration * (drag + dashpot);
+        let before = (1.0 - weight) * duration * dashpot * rate;
+        let after = weight * duration * dashpot;
+        let travel = duration * rate.abs().max((speed + turn).abs());
+        let pulled = dashpot * (rate.max(speed + turn));
+        Self {
+            gap,
+            charged,
+            rate,
+            turn,
+            weight,
+            duration,
+            dashpot,
+            pull,
+            mobility,
+            offset: drag * (gap - charged) + before + slope * turn,
+            slope,
+            answer: 1.0 / (1.0 + slope * mobility),
+            exact: (drag > 0.0 && travel > LINEAR * clearance)
+                || (after > 0.0 && pulled > 0.5 * pull),
+        }
+    }
+
+    /// The impulse that fits the speed of separation `speed`, which `now` is a part of; `charge` gives
+    /// the drag's impulse from contact to a gap, and the drag there.
+    #[inline(always)]
+    pub(super) fn fit(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
+        if self.exact {
+            return self.search(speed, now, charge);
+        }
+        now - (self.offset + self.slope * speed + now) * self.answer
+    }
+
+    /// The fit of a linear pair as a term of the sums that scale a start: p (a + offset/slope), p²/slope.
+    pub(super) fn start(&self, now: f64, speed: f64) -> [f64; 2] {
+        if self.slope > 0.0 {
+            [now * (speed + self.offset / self.slope), now * now / self.slope]
+        } else {
+            [0.0; 2]
+        }
+    }
+
+    /// How far the gap is charged for after the step `drift`, with the speed of separation `speed`.
+    pub(super) fn charged(&self, speed: f64, drift: f64) -> f64 {
+        self.gap + self.weight * drift * (speed + self.turn)
+    }
+
+    /// Newton's method between bounds: what is searched grows with the speed, by 1/mobility at least.
+    #[cold]
+    #[inline(never)]
+    fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
+        let own = speed - now * self.mobility;
+        let [paid, _] = charge(self.charged);
+        let (step, before) = (self.weight * self.duration, (1.0 - self.weight) * self.rate);
+        let lack = |a: f64| {
+            let u = a + self.turn;
+            let [to, drag] = charge(self.gap + step * u);
+            let pull = self.dashpot * (before + self.weight * u);
+            let capped = pull > self.pull;
+            let (pull, rise) = if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
+            let resisted = to - paid + self.duration * pull;
+            [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
+        };
+        let other = own - self.mobility * lack(own)[0];
+        let (mut low, mut high) = (own.min(other), own.max(other));
+        let small = TOLERANCE * (own.abs() + self.rate.abs());
+        let mut a = speed.clamp(low, high);
+        for _ in 0..MOST_ITERATIONS {
+            let [f, rise] = lack(a);
+            if f > 0.0 {
+                high = a
+            } else {
+                low = a
+            }
+            let newton = a - f / rise;
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            let done = (next - a).abs() <= small;
+            a = next;
+            if done {
+                break;
+            }
+        }
+        (a - own) / self.mobility
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weight_is_continuous_and_has_its_limits() {
+        assert_eq!(weight(0.0), 0.5);
+        assert!((weight(0.4 - 1e-12) - weight(0.4)).abs() < 1e-9);
+        assert!((weight(40.0 - 1e-12) - weight(40.0)).abs() < 1e-14);
+        assert!((weight(1e9) - 1.0).abs() < 1e-8);
+        // g = 1: 1/(1 − 1/e) − 1 by hand
+        assert!((weight(1.0) - 0.581_976_706_869_326_4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_free_pair_decays_like_the_exponential() {
+        let (drag, h, mass) = (0.3, 1e-3, 2e-4);
+        let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
+        let pair = Normal::new(&resist, [1.0, f64::INFINITY], [0.7, 0.0, 0.7], h, 1.0 / mass);
+        let p = pair.fit(0.7, 0.0, |gap| [drag * gap, drag]);
+        let left = 0.7 + p / mass;
+        assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
+        let exact = Normal { exact: true, ..pair };
+        assert!((exact.fit(0.7, 0.0, |gap| [drag * gap, drag]) / p - 1.0).abs() < 1e-12);
+    }
+}

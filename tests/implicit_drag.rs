@@ -1,0 +1,292 @@
+//! Drags that are solved for at the end of the step, at the time step of the contact.
+
+use std::f64::consts::PI;
+
+use pendular::{MeshWalls, SplitMethod, Wet};
+use pendular_capillary::AnyCapillary;
+use pendular_contact::{Dashpot, Linear};
+use pendular_dem_core::{
+    Boundary, Class, Contact, DVec3, Implicit, PairContact, PairTerm, Particle, Particles,
+    Settings, Simulation,
+};
+use pendular_lubrication::{
+    AdamsPerchard1985, AnyNormalDrag, AnyTangentialDrag, Gap, NormalCurve, NormalDrag, NormalModel,
+    TangentialModel,
+};
+use pendular_pair::{Bridge, Mate};
+use pendular_walls::{Part, Plane, Shape, Walls};
+
+use crate::rig;
+
+const R: f64 = 2e-3;
+const DENSITY: f64 = 2500.0;
+const STIFFNESS: f64 = 1e4;
+const ROUGHNESS: f64 = 2e-6;
+const G: f64 = 9.81;
+
+fn sphere() -> Class {
+    Class::new(R, DENSITY, 0).unwrap()
+}
+
+/// A fiftieth of the contact time of two spheres.
+fn step() -> f64 {
+    PI * (0.5 * sphere().mass() / STIFFNESS).sqrt() / 50.0
+}
+
+fn spring(mass: f64, restitution: f64) -> PairContact<Linear> {
+    let pull = Dashpot::MayPull;
+    let normal = Linear::from_restitution_with(STIFFNESS, restitution, mass, pull).unwrap();
+    PairContact { normal, friction: 0.0, rolling_friction: 0.0, tangential_damping: 0.0 }
+}
+
+fn contact(classes: &[Class], restitution: f64) -> Contact<Linear> {
+    Contact::new(
+        classes,
+        1,
+        move |a, b| spring(a.mass() * b.mass() / (a.mass() + b.mass()), restitution),
+        move |a, _| spring(a.mass(), restitution),
+    )
+}
+
+fn adams() -> AdamsPerchard1985 {
+    AdamsPerchard1985 { near: Gap::Roughness { length: ROUGHNESS }.into() }
+}
+
+type AnyWet = Wet<AnyCapillary, Option<AnyNormalDrag>, Option<AnyTangentialDrag>>;
+
+/// One type of term for all tests: each other one would be compiled anew.
+type Scene<T> = Simulation<T, MeshWalls>;
+type Pairs = (Contact<Linear>, AnyWet);
+
+/// Bridges that drag along the line of centres, as an immersed pair does, and hardly pull.
+fn film(particles: &Particles, walls: &Walls, viscosity: f64, films: Vec<f64>) -> AnyWet {
+    let near = Gap::Roughness { length: ROUGHNESS }.into();
+    let normal = Some(NormalModel::AdamsPerchard1985.with(near));
+    let laws = rig::viscous_laws(AnyCapillary::Lambert, normal, None);
+    let liquid = rig::liquid(1e-12, viscosity, 0.0);
+    rig::wet(liquid, laws, rig::bodies(particles, Some(walls)), films, SplitMethod::Half)
+}
+
+fn implicit(
+    particles: Particles,
+    walls: Walls,
+    terms: Pairs,
+    settings: Settings,
+) -> Scene<Implicit<Pairs>> {
+    Simulation::new(particles, Implicit::new(terms), MeshWalls(walls), settings).unwrap()
+}
+
+/// A floor out of the way.
+fn far() -> Walls {
+    let plane = Plane::new(-DVec3::Z, DVec3::Z, 1.0).unwrap();
+    Walls::new(vec![Part::new("floor", Shape::Plane(plane))]).unwrap()
+}
+
+fn floor() -> Walls {
+    let plane = Plane::new(DVec3::ZERO, DVec3::Z, 1.0).unwrap();
+    Walls::new(vec![Part::new("floor", Shape::Plane(plane))]).unwrap()
+}
+
+/// Spheres one above the other over a floor, each with `gaps` below it.
+fn stack(gaps: &[f64]) -> Particles {
+    let mut particles = Particles::new(vec![sphere()]).unwrap();
+    let mut z = 0.0;
+    for gap in gaps {
+        z += gap + R;
+        particles.push(0, z * DVec3::Z, DVec3::ZERO, DVec3::ZERO).unwrap();
+        z += R;
+    }
+    particles
+}
+
+fn heights<T: PairTerm, B: Boundary>(simulation: &Simulation<T, B>) -> Vec<f64> {
+    let mut all: Vec<Particle> = simulation.particles().iter().collect();
+    all.sort_by_key(|p| p.id);
+    all.iter().map(|p| p.position.z).collect()
+}
+
+fn gaps<T: PairTerm, B: Boundary>(simulation: &Simulation<T, B>) -> Vec<f64> {
+    let mut below = -R;
+    let gap = |z: f64| {
+        let gap = z - below - 2.0 * R;
+        below = z;
+        gap
+    };
+    heights(simulation).into_iter().map(gap).collect()
+}
+
+/// A stack of spheres that sinks under its weight: gap k closes at the rate of the weight above it
+/// over the drag, ln(S + s_r) by (N − k) m g/K. K is that of two spheres or of a sphere and a plane.
+fn drained(count: usize, viscosity: f64, steps: u64) -> Vec<f64> {
+    let particles = stack(&vec![5e-6; count]);
+    let walls = floor();
+    let wet = film(&particles, &walls, viscosity, vec![1e-9; count]);
+    let terms = (contact(particles.classes(), 0.8), wet);
+    let mut simulation = implicit(particles, walls, terms, Settings::new(step()));
+    // The first steps find the impulses and the speeds.
+    simulation.advance(200).unwrap();
+    let (before, start) = (gaps(&simulation), simulation.time());
+    simulation.advance(steps).unwrap();
+    let time = simulation.time() - start;
+    let rates = before.iter().zip(gaps(&simulation)).enumerate().map(|(k, (before, after))| {
+        let weight = (count - k) as f64 * sphere().mass() * G;
+        let reduced = if k == 0 { R } else { 0.5 * R };
+        let strength = 6.0 * PI * viscosity * reduced * reduced;
+        let sunk = ((before + ROUGHNESS) / (after + ROUGHNESS)).ln();
+        sunk / (weight / strength * time)
+    });
+    rates.collect()
+}
+
+#[test]
+fn a_sphere_settles_on_a_plane_at_the_rate_of_lubrication() {
+    for (viscosity, steps) in [(1.0, 4_000), (10.0, 20_000), (100.0, 40_000)] {
+        let rate = drained(1, viscosity, steps)[0];
+        assert!((rate - 1.0).abs() < 1e-3, "η = {viscosity}: {rate}");
+    }
+}
+
+#[test]
+fn stacks_drain_as_their_weight_says() {
+    for (count, viscosity) in [(3, 10.0), (3, 100.0), (10, 10.0), (10, 100.0)] {
+        for (k, rate) in drained(count, viscosity, 2_000).into_iter().enumerate() {
+            assert!((rate - 1.0).abs() < 1e-2, "{count} at η = {viscosity}, gap {k}: {rate}");
+        }
+    }
+}
+
+/// Two spheres that approach each other through liquid stop where m* v + G is used up, also where
+/// they would cross the whole gap in a step.
+#[test]
+fn the_stopping_distance_spends_the_momentum() {
+    for (viscosity, speed) in [(1.0, 0.5), (10.0, 2.0), (100.0, 20.0)] {
+        let particles = rig::two([sphere(); 2], 1e-4, [0.5 * speed, -0.5 * speed]);
+        let wet = film(&particles, &far(), viscosity, rig::films_for(1e-9, [R; 2]));
+        let terms = (contact(particles.classes(), 0.8), wet);
+        let mut simulation = implicit(particles, far(), terms, rig::weightless(step()));
+        simulation.advance(1).unwrap();
+        let state = |s: &Scene<Implicit<Pairs>>| {
+            let mut charged = f64::NAN;
+            s.survey(|_, (_, impulse)| charged = impulse.charged);
+            let [a, b] = [0, 1].map(|id| rig::at(s, id));
+            (charged, b.position.x - a.position.x - 2.0 * R, b.velocity.x - a.velocity.x)
+        };
+        let bridge = Bridge::new(R, Mate::Sphere { radius: R }, 1e-9, [0.0; 2], 0.07).unwrap();
+        let law = AdamsPerchard1985 { near: Gap::Roughness { length: ROUGHNESS }.into() };
+        let curve = law.curve(&bridge, viscosity).unwrap();
+        let mass = 0.5 * sphere().mass();
+        let (charged, _, rate) = state(&simulation);
+        let start = mass * rate + curve.impulse(charged);
+        simulation.advance(40_000).unwrap();
+        let (_, gap, rate) = state(&simulation);
+        assert!(rate.abs() < 1e-9 && gap > 1e-6 && gap < 9.9e-5, "η = {viscosity}: {gap:e}");
+        // To one in a million, of the momentum and so of the gap.
+        let lost = (start - curve.impulse(gap)).abs();
+        assert!(lost < 1e-6 * mass * speed, "η = {viscosity}: {lost:e} {gap:e}");
+    }
+}
+
+/// As `rebound_is_daviss_with_the_logarithm_plus_one` but with a time step 200 times as long, in
+/// which the spheres travel as far as they are rough. The mean over the place of the first step.
+#[test]
+fn the_mean_rebound_is_daviss_at_the_contacts_step() {
+    let (speed, e_dry, volume) = (0.5, 0.8, 1e-11);
+    for stokes in [1110.0, 111.0, 37.0, 18.5, 3.0] {
+        let reduced = 0.5 * sphere().mass();
+        let viscosity = reduced * speed / (stokes * 6.0 * PI * 0.25 * R * R);
+        let mut mean = 0.0;
+        let mut film_gap = 0.0;
+        const OFFSETS: u32 = 16;
+        for k in 0..OFFSETS {
+            let offset = f64::from(k) / f64::from(OFFSETS) * speed * step();
+            let films = rig::films_for(volume, [R; 2]);
+            let particles = rig::two([sphere(); 2], 6e-5 + offset, [0.5 * speed, -0.5 * speed]);
+            let wet = film(&particles, &far(), viscosity, films);
+            film_gap = 2.0 * wet.film_thickness(0);
+            let terms = (contact(&[sphere(); 2], e_dry), wet);
+            let mut simulation = implicit(particles, far(), terms, rig::weightless(step()));
+            simulation.advance(600).unwrap();
+            let out = rig::at(&simulation, 1).velocity.x - rig::at(&simulation, 0).velocity.x;
+            mean += out / speed / f64::from(OFFSETS);
+        }
+        let log = |gap: f64| (1.0 + gap / ROUGHNESS).ln() + 1.0;
+        let expected = e_dry - (e_dry * log(film_gap) + log(volume.cbrt())) / stokes;
+        assert!((mean - expected.max(0.0)).abs() < 3e-3, "St {stokes}: {mean} for {expected}");
+    }
+}
+
+fn momenta(particles: &Particles) -> (DVec3, DVec3) {
+    let one = |p: Particle| {
+        let class = particles.classes()[usize::from(p.class)];
+        let m = class.mass();
+        (m * p.velocity, m * p.position.cross(p.velocity) + class.inertia() * p.spin)
+    };
+    particles.iter().map(one).fold((DVec3::ZERO, DVec3::ZERO), |(a, b), (c, d)| (a + c, b + d))
+}
+
+/// A pair of unequal spheres that slip on each other in a bridge.
+fn sheared(
+    viscosity: f64,
+    tangential: TangentialModel,
+    h: f64,
+    time: f64,
+    at_the_end: bool,
+) -> (Particles, Particles) {
+    let classes = [1e-3, 1.5e-3].map(|r| Class::new(r, DENSITY, 0).unwrap());
+    let mut particles = Particles::new(classes.to_vec()).unwrap();
+    particles.push(0, DVec3::ZERO, 0.05 * DVec3::Y, 20.0 * DVec3::Z).unwrap();
+    let apart = 2.5e-3 + 3e-6;
+    particles.push(1, apart * DVec3::X, DVec3::ZERO, DVec3::new(3.0, 0.0, -15.0)).unwrap();
+    let near = Gap::Roughness { length: 1e-6 }.into();
+    let normal = Some(NormalModel::Pitois2000.with(near));
+    let laws = rig::viscous_laws(AnyCapillary::Lambert, normal, Some(tangential.with(near)));
+    let films = rig::films_for(2e-11, [1e-3, 1.5e-3]);
+    let bodies = rig::bodies(&particles, Some(&far()));
+    let wet = rig::wet(rig::liquid(0.07, viscosity, 0.3), laws, bodies, films, SplitMethod::Half);
+    let rub = rig::Rub { stiffness: 1e4, restitution: 0.6, friction: 0.3, rolling: 0.0 };
+    let terms = (rig::contact(&classes, rub), wet);
+    let steps = (time / h).round() as u64;
+    let start = particles.clone();
+    let end = if at_the_end {
+        let mut simulation = implicit(particles, far(), terms, rig::weightless(h));
+        simulation.advance(steps).unwrap();
+        simulation.particles().clone()
+    } else {
+        let settings = rig::weightless(h);
+        let mut simulation = Scene::new(particles, terms, MeshWalls(far()), settings).unwrap();
+        simulation.advance(steps).unwrap();
+        simulation.particles().clone()
+    };
+    (start, end)
+}
+
+#[test]
+fn implicit_drags_keep_momentum_and_angular_momentum() {
+    for &tangential in TangentialModel::ALL.iter().filter(|m| m.name() != "goldman-literal") {
+        let (start, end) = sheared(10.0, tangential, 2e-6, 6e-3, true);
+        let ((p, l), (q, k)) = (momenta(&start), momenta(&end));
+        assert!((p - q).length() < 1e-12 * p.length(), "{}", tangential.name());
+        assert!((l - k).length() < 1e-12 * l.length(), "{}: {l} {k}", tangential.name());
+    }
+}
+
+#[test]
+fn a_sheared_pair_goes_where_a_thousand_times_finer_explicit_steps_take_it() {
+    let h = 2e-6;
+    for viscosity in [1.0, 10.0] {
+        let model = TangentialModel::Popov2010;
+        let (start, fine) = sheared(viscosity, model, h / 1000.0, 2e-3, false);
+        let (_, coarse) = sheared(viscosity, model, h, 2e-3, true);
+        for id in [0, 1] {
+            let at = |p: &Particles| p.get(id).unwrap().position;
+            let moved = (at(&fine) - at(&start)).length();
+            let off = (at(&coarse) - at(&fine)).length();
+            assert!(off < 1e-3 * moved.max(1e-5), "η = {viscosity}: {off:e} of {moved:e}");
+        }
+        let (_, explicit) = sheared(viscosity, model, h, 2e-3, false);
+        let off = explicit.get(0).unwrap().position - fine.get(0).unwrap().position;
+        if viscosity > 5.0 {
+            assert!(!(off.length() < 1e-5), "explicit drag is unstable here: {off}");
+        }
+    }
+}
