@@ -8,20 +8,29 @@ const LINEAR: f64 = 2e-3;
 /// Of the search for a speed, relative to the speeds before.
 const TOLERANCE: f64 = 1e-13;
 const MOST_ITERATIONS: u32 = 60;
+/// From this g on a pair is backward Euler's.
+const STIFF: f64 = 4.0;
 
-/// The weight θ of the velocity after the step, from g = h c/m: the decay of a free pair is exp(−g)
-/// and its terminal speed is force over drag, both exactly.
+/// The weight θ of the velocity after the step, from g = h c/m. While g ≤ 1 it is fitted: the decay
+/// of a free pair is exp(−g) and its terminal speed is force over drag, both exactly.
 ///
 /// ```text
-/// θ = 1/(1 − exp(−g)) − 1/g          1/2 for g → 0, 1 for g → ∞
+/// θ = 1/(1 − exp(−g)) − 1/g          1/2 for g → 0
 /// ```
+///
+/// Above that it goes to 1, which it is from g = 4 on (backward Euler): every pass then lowers the
+/// energy, however stiff the pairs and however far the passes are from their end.
 pub(super) fn weight(g: f64) -> f64 {
-    if g < 0.4 {
-        let g2 = g * g;
-        return 0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)));
+    if g >= STIFF {
+        return 1.0;
     }
-    let left = if g < 40.0 { (-g).exp() } else { 0.0 };
-    1.0 / (1.0 - left) - 1.0 / g
+    let g2 = g * g;
+    let fitted = if g < 0.4 {
+        0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)))
+    } else {
+        1.0 / (1.0 - (-g).exp()) - 1.0 / g
+    };
+    1.0 - (1.0 - fitted) * ((STIFF - g) / (STIFF - 1.0)).min(1.0)
 }
 
 /// What decides the impulse p of a pair along its line of centres, p > 0 driving the bodies apart:
@@ -158,15 +167,16 @@ mod tests {
     fn the_weight_is_continuous_and_has_its_limits() {
         assert_eq!(weight(0.0), 0.5);
         assert!((weight(0.4 - 1e-12) - weight(0.4)).abs() < 1e-9);
-        assert!((weight(40.0 - 1e-12) - weight(40.0)).abs() < 1e-14);
-        assert!((weight(1e9) - 1.0).abs() < 1e-8);
+        assert!((weight(1.0 + 1e-12) - weight(1.0)).abs() < 1e-11);
+        assert!((weight(4.0 - 1e-12) - 1.0).abs() < 1e-11);
+        assert_eq!(weight(1e9), 1.0);
         // g = 1: 1/(1 − 1/e) − 1 by hand
         assert!((weight(1.0) - 0.581_976_706_869_326_4).abs() < 1e-15);
     }
 
     #[test]
     fn a_free_pair_decays_like_the_exponential() {
-        let (drag, h, mass) = (0.3, 1e-3, 2e-4);
+        let (drag, h, mass) = (0.15, 1e-3, 2e-4);
         let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
         let pair = Normal::new(&resist, [1.0, f64::INFINITY], [0.7, 0.0, 0.7], h, 1.0 / mass);
         let p = pair.fit(0.7, 0.0, |gap| [drag * gap, drag]);
