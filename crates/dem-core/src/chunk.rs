@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 
-use crate::implicit::Link;
+use crate::implicit::Links;
 use crate::lists::PairList;
 use crate::pass::View;
 use crate::{Encounter, Touch, wall_pass};
@@ -76,8 +76,8 @@ pub(crate) struct Chunk<C> {
     pub(crate) memories: Vec<Memory<C>>,
     /// Pairs that resist, to be solved for: inside and with walls, and across the border where the
     /// first particle is the chunk's own. Empty unless the term is implicit.
-    pub(crate) links: Vec<Link>,
-    pub(crate) links_across: Vec<Link>,
+    pub(crate) links: Links,
+    pub(crate) links_across: Links,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -99,8 +99,8 @@ impl<C: Copy + Default> Chunk<C> {
             apart: Vec::new(),
             touches: Vec::new(),
             memories: Vec::new(),
-            links: Vec::new(),
-            links_across: Vec::new(),
+            links: Links::default(),
+            links_across: Links::default(),
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,
@@ -111,6 +111,8 @@ impl<C: Copy + Default> Chunk<C> {
         self.sums.fill(Sum::default());
         self.rolls.fill(Roll::default());
         self.notes.clear();
+        self.links.met.clear();
+        self.links_across.met.clear();
     }
 
     /// Who meets in the pair that a note is about, as it was read.

@@ -71,6 +71,13 @@ enum Partner {
     Wall(u8),
 }
 
+fn partner(encounter: &Encounter, second: u16) -> Partner {
+    match encounter.second {
+        crate::Partner::Particle(_) => Partner::Class(second),
+        crate::Partner::Wall(_) => Partner::Wall(second as u8),
+    }
+}
+
 enum Table<N> {
     Dense(Vec<PairContact<N>>),
     OnDemand(Rule<N>),
@@ -161,11 +168,7 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
 
     #[inline]
     fn law_of(&self, pair: &Pair) -> PairContact<N> {
-        let second = match pair.encounter.second {
-            crate::Partner::Particle(_) => Partner::Class(pair.second_class),
-            crate::Partner::Wall(_) => Partner::Wall(pair.second_class as u8),
-        };
-        self.law(pair.first_class, second)
+        self.law(pair.first_class, partner(&pair.encounter, pair.second_class))
     }
 
     /// What acts in a contact, part by part: for budgets and reports, not for the step.
@@ -179,7 +182,8 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
             return ContactForces::default();
         }
         let law = self.law_of(pair);
-        let load = self.load(pair, &mut column);
+        let all = Acting { rolls: self.rolls, dashpot: true };
+        let load = act((), [&law], all, &Geometry::of(pair), &mut &mut column).single();
         let elastic = law.normal.force(overlap, 0.0, &mut spring.memory.clone());
         let slides = load.shear.length() >= (1.0 - 1e-9) * law.friction * load.tension.abs();
         let dashpot = law.tangential_damping * pair.slip.length_squared();
@@ -294,12 +298,19 @@ where
         self.resists = false;
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, _: f64) -> Resist {
-        let overlap = -pair.encounter.gap;
+    #[inline(always)]
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        [first, second]: [u16; 2],
+        column: &Self::Column,
+        _: f64,
+    ) -> Resist {
+        let overlap = -encounter.gap;
         if overlap <= 0.0 {
             return Resist::default();
         }
-        let law = self.law_of(pair);
+        let law = self.law(first, partner(encounter, second));
         let repulsion = law.normal.force(overlap, 0.0, &mut column.memory.clone()).max(0.0);
         Resist {
             dashpot: law.normal.damping(overlap),

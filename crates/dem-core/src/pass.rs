@@ -6,6 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use crate::chunk::{Chunk, List, Note, Roll, Sum};
+use crate::implicit::Met;
 use crate::lane::{Four, Lane, Vector};
 use crate::lists::{Entry, PairList};
 use crate::pairs::{Geometry, Pairs, Picked};
@@ -153,7 +154,8 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
 ) {
     let start = Instant::now();
     let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
-    let out = Out { range, sums, rolls, notes, apart, overlap };
+    let met = [&mut chunk.links.met, &mut chunk.links_across.met];
+    let out = Out { range, sums, rolls, notes, apart, overlap, met };
     // The widest registers that this machine has; the same operations, the same bits.
     match pulp::Arch::new() {
         #[cfg(target_arch = "x86_64")]
@@ -216,6 +218,8 @@ struct Out<'a> {
     notes: &'a mut Vec<Note>,
     apart: &'a mut Vec<u32>,
     overlap: &'a mut f64,
+    /// Where an implicit term keeps the pairs that act.
+    met: [&'a mut Vec<Met>; 2],
 }
 
 /// One list: first which pairs act, then what acts in them, several side by side. Those that touch
@@ -372,10 +376,40 @@ fn block<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APAR
         let shares = (-g.gap / smaller).unpack();
         *out.overlap = (0..L::WIDTH).fold(*out.overlap, |most, k| most.max(shares[k]));
     }
+    if T::IMPLICIT {
+        meet::<L>(&pairs, at, INSIDE, out);
+    }
     if loads.attention != 0 {
         let kind = if INSIDE { List::Inside } else { List::Across };
         for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
             out.notes.push(Note { list: kind, index: at[k] });
+        }
+    }
+}
+
+/// Keeps how pairs met for the end of the step; of pairs across a border only those whose first
+/// particle is the chunk's own.
+#[inline(always)]
+fn meet<L: Lane>(pairs: &Pairs<'_, L>, at: &[u32], inside: bool, out: &mut Out<'_>) {
+    let g = &pairs.geometry;
+    let (normal, slip) = (g.normal.unpack(), g.slip.unpack());
+    let (gap, rate) = (g.gap.unpack(), g.separation_speed.unpack());
+    let levers = [g.levers[0].unpack(), g.levers[1].unpack()];
+    let [mine, border] = &mut out.met;
+    let (met, list) = if inside { (mine, List::Inside) } else { (border, List::Across) };
+    for k in 0..L::WIDTH {
+        let slots = pairs.entries[k];
+        if inside || out.range.contains(&slots[0]) {
+            met.push(Met {
+                slots,
+                list,
+                index: at[k],
+                normal: normal[k],
+                levers: [levers[0][k], levers[1][k]],
+                gap: gap[k],
+                rate: rate[k],
+                slip: slip[k],
+            });
         }
     }
 }

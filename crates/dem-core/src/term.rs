@@ -97,9 +97,16 @@ pub trait PairTerm: Send + Sync {
     /// From now on loads leave out what [`PairTerm::resist`] gives.
     fn leave_resistance(&mut self) {}
 
-    /// What resists motion in this pair, with drags at `gap` m and contacts as they are in the pair.
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        let _ = (pair, column, gap);
+    /// What resists motion in this pair, with drags at `gap` m and contacts at the encounter's.
+    /// `classes` are those of the bodies, or class and wall material, as in [`Pair`].
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        let _ = (encounter, classes, column, gap);
         Resist::default()
     }
 
@@ -252,8 +259,16 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.1.leave_resistance();
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        self.0.resist(pair, &column.0, gap) + self.1.resist(pair, &column.1, gap)
+    #[inline(always)]
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        self.0.resist(encounter, classes, &column.0, gap)
+            + self.1.resist(encounter, classes, &column.1, gap)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
@@ -346,8 +361,15 @@ impl<T: PairTerm> PairTerm for Option<T> {
         }
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        self.as_ref().map_or_else(Resist::default, |term| term.resist(pair, column, gap))
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        let resist = |term: &T| term.resist(encounter, classes, column, gap);
+        self.as_ref().map_or_else(Resist::default, resist)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {

@@ -9,7 +9,7 @@ use crate::build::{Built, Derived};
 use crate::error::RunError;
 use crate::guard::Guard;
 use crate::run::Outcome;
-use crate::scene::{Scene, WireKind};
+use crate::scene::{Drag, Scene, WireKind};
 use crate::screening::partition;
 use crate::tables::{groups, retained};
 use crate::tally::{Tally, wall_speed};
@@ -47,14 +47,15 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         None => text += "  liquid       none: a dry run\n",
         Some(liquid) => {
             text += &format!(
-                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n",
+                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n  drag         {}\n",
                 liquid.moisture_percent,
                 1e6 * derived.liquid,
                 1e6 * derived.film,
                 liquid.capillary,
                 liquid.normal_drag,
                 liquid.tangential_drag,
-                liquid.rupture
+                liquid.rupture,
+                drag(liquid.drag, built.implicit)
             );
         }
     }
@@ -66,6 +67,18 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
     );
     text += &format!("  time step    {:.3e} s", built.settings.time_step);
     text
+}
+
+/// How the drags enter the step, and why.
+fn drag(asked: Drag, implicit: bool) -> &'static str {
+    match (asked, implicit) {
+        (Drag::Auto, true) => {
+            "implicit: taken from the start of the step it would limit it more than the contacts do"
+        }
+        (Drag::Auto, false) => "explicit: it limits the step less than the contacts do",
+        (_, true) => "implicit, as asked for",
+        (_, false) => "explicit, as asked for",
+    }
 }
 
 /// The final table.

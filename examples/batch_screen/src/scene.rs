@@ -252,6 +252,9 @@ pub(crate) struct LiquidSpec {
     pub(crate) normal_drag: String,
     pub(crate) tangential_drag: String,
     pub(crate) tangential_drag_wall: String,
+    /// How drags enter the step.
+    #[serde(default)]
+    pub(crate) drag: Drag,
     /// Roughness of the lubrication gap as a share of the radius.
     #[serde(default = "thousandth")]
     pub(crate) roughness_share: f64,
@@ -260,6 +263,19 @@ pub(crate) struct LiquidSpec {
     pub(crate) dynamic_rupture: DynamicRupture,
     pub(crate) transfer: Transfer,
     pub(crate) outside_range: OutsideRange,
+}
+
+/// How drags, and with them dashpots and rolling friction, enter the step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Drag {
+    /// Explicit while the drags allow as long a step as the contacts do, else implicit.
+    #[default]
+    Auto,
+    /// With the velocities before the step.
+    Explicit,
+    /// With those after it: no drag limits the step.
+    Implicit,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

@@ -13,6 +13,8 @@ pub(crate) struct Spent {
     pairs: Duration,
     walls: Duration,
     bridges: Duration,
+    /// Implicit drags.
+    resistance: Duration,
     integration: Duration,
     pub(crate) output: Duration,
 }
@@ -25,24 +27,26 @@ impl Spent {
             pairs: self.pairs + profile.pairs,
             walls: self.walls + profile.walls,
             bridges: self.bridges + profile.settling,
+            resistance: self.resistance + profile.resistance,
             integration: self.integration + profile.integration,
             output: self.output,
         }
     }
 
-    fn parts(&self) -> [(&'static str, f64); 6] {
+    fn parts(&self) -> [(&'static str, f64); 7] {
         [
             ("neighbours", self.neighbours),
             ("pairs", self.pairs),
             ("walls", self.walls),
             ("bridges", self.bridges),
+            ("resistance", self.resistance),
             ("integration", self.integration),
             ("output", self.output),
         ]
         .map(|(name, time)| (name, time.as_secs_f64()))
     }
 
-    fn shares(&self) -> [(&'static str, f64); 6] {
+    fn shares(&self) -> [(&'static str, f64); 7] {
         let all: f64 = self.parts().iter().map(|(_, seconds)| seconds).sum();
         let share = |seconds: f64| if all > 0.0 { 100.0 * seconds / all } else { 0.0 };
         self.parts().map(|(name, seconds)| (name, share(seconds)))

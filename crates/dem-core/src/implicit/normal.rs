@@ -33,16 +33,43 @@ pub(super) fn weight(g: f64) -> f64 {
     1.0 - (1.0 - fitted) * ((STIFF - g) / (STIFF - 1.0)).min(1.0)
 }
 
-/// What decides the impulse p of a pair along its line of centres, p > 0 driving the bodies apart:
+/// The impulse p = −(offset + slope a) of a pair along its line of centres, a the speed at which it
+/// separates; p > 0 drives the bodies apart.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Normal {
+    pub(super) offset: f64,
+    pub(super) slope: f64,
+    pub(super) answer: f64,
+}
+
+impl Normal {
+    /// The impulse that fits the speed of separation, which `now` is a part of.
+    #[inline(always)]
+    pub(super) fn fit(&self, speed: f64, now: f64) -> f64 {
+        now - (self.offset + self.slope * speed + now) * self.answer
+    }
+
+    /// The terms of the sums that scale a start: p (a + offset/slope) and p²/slope.
+    #[inline(always)]
+    pub(super) fn start(&self, now: f64, speed: f64) -> [f64; 2] {
+        if self.slope > 0.0 {
+            [now * (speed + self.offset / self.slope), now * now / self.slope]
+        } else {
+            [now * speed, 0.0]
+        }
+    }
+}
+
+/// What decides that impulse, whatever the gap does in the step:
 ///
 /// ```text
 /// p = −[G(S + θ h u) − G(charged)] − h min(γ ((1 − θ) u₀ + θ u), pull)      u = a + κ
 /// ```
 ///
-/// u is the rate of the gap after the step, u₀ before it, a the speed of separation along the
-/// normal at the step's start, κ what the turning line of centres adds to it.
+/// u is the rate of the gap after the step, u₀ before it; κ is what the turning line of centres adds
+/// to the speed of separation along the normal at the step's start.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Normal {
+pub(super) struct Along {
     gap: f64,
     charged: f64,
     rate: f64,
@@ -53,66 +80,36 @@ pub(super) struct Normal {
     pull: f64,
     /// 1/m_i + 1/m_j, 1/kg.
     mobility: f64,
-    /// The linear pair: p = −(offset + slope a).
-    offset: f64,
-    slope: f64,
-    answer: f64,
-    exact: bool,
 }
 
-impl Normal {
-    /// `rate` is u₀, `turn` κ, `speed` a of the velocities after the kick.
+impl Along {
+    /// `rate` is u₀, `turn` κ, `speed` a after the kick. Returns the linear pair too, and whether the
+    /// pair has to be searched for because it is not.
+    #[inline(always)]
     pub(super) fn new(
         resist: &Resist,
         [gap, charged]: [f64; 2],
         [rate, turn, speed]: [f64; 3],
         duration: f64,
         mobility: f64,
-    ) -> Self {
+    ) -> (Self, Normal, bool) {
         let Resist { drag, dashpot, pull, clearance, .. } = *resist;
         let weight = weight(duration * (drag + dashpot) * mobility);
         let fresh = gap - (1.0 - weight) * duration * rate;
         let charged = if charged.is_finite() { charged } else { fresh };
         let slope = weight * duration * (drag + dashpot);
         let before = (1.0 - weight) * duration * dashpot * rate;
-        let after = weight * duration * dashpot;
-        let travel = duration * rate.abs().max((speed + turn).abs());
-        let pulled = dashpot * (rate.max(speed + turn));
-        Self {
-            gap,
-            charged,
-            rate,
-            turn,
-            weight,
-            duration,
-            dashpot,
-            pull,
-            mobility,
+        let fastest = speed + turn;
+        let travel = duration * rate.abs().max(fastest.abs());
+        let searched = (drag > 0.0 && travel > LINEAR * clearance)
+            || (dashpot > 0.0 && dashpot * rate.max(fastest) > 0.5 * pull);
+        let normal = Normal {
             offset: drag * (gap - charged) + before + slope * turn,
             slope,
             answer: 1.0 / (1.0 + slope * mobility),
-            exact: (drag > 0.0 && travel > LINEAR * clearance)
-                || (after > 0.0 && pulled > 0.5 * pull),
-        }
-    }
-
-    /// The impulse that fits the speed of separation `speed`, which `now` is a part of; `charge` gives
-    /// the drag's impulse from contact to a gap, and the drag there.
-    #[inline(always)]
-    pub(super) fn fit(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
-        if self.exact {
-            return self.search(speed, now, charge);
-        }
-        now - (self.offset + self.slope * speed + now) * self.answer
-    }
-
-    /// The fit of a linear pair as a term of the sums that scale a start: p (a + offset/slope), p²/slope.
-    pub(super) fn start(&self, now: f64, speed: f64) -> [f64; 2] {
-        if self.slope > 0.0 {
-            [now * (speed + self.offset / self.slope), now * now / self.slope]
-        } else {
-            [0.0; 2]
-        }
+        };
+        let along = Self { gap, charged, rate, turn, weight, duration, dashpot, pull, mobility };
+        (along, normal, searched)
     }
 
     /// How far the gap is charged for after the step `drift`, with the speed of separation `speed`.
@@ -120,10 +117,17 @@ impl Normal {
         self.gap + self.weight * drift * (speed + self.turn)
     }
 
-    /// Newton's method between bounds: what is searched grows with the speed, by 1/mobility at least.
+    /// The impulse that fits the speed of separation `speed`, which `now` is a part of; `charge`
+    /// gives the drag's impulse from contact to a gap, and the drag there. Newton's method between
+    /// bounds: what is searched for grows with the speed, by 1/mobility at least.
     #[cold]
     #[inline(never)]
-    fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
+    pub(super) fn search(
+        &self,
+        speed: f64,
+        now: f64,
+        charge: impl Fn(f64) -> [f64; 2],
+    ) -> f64 {
         let own = speed - now * self.mobility;
         let [paid, _] = charge(self.charged);
         let (step, before) = (self.weight * self.duration, (1.0 - self.weight) * self.rate);
@@ -132,7 +136,8 @@ impl Normal {
             let [to, drag] = charge(self.gap + step * u);
             let pull = self.dashpot * (before + self.weight * u);
             let capped = pull > self.pull;
-            let (pull, rise) = if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
+            let (pull, rise) =
+                if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
             let resisted = to - paid + self.duration * pull;
             [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
         };
@@ -142,13 +147,10 @@ impl Normal {
         let mut a = speed.clamp(low, high);
         for _ in 0..MOST_ITERATIONS {
             let [f, rise] = lack(a);
-            if f > 0.0 {
-                high = a
-            } else {
-                low = a
-            }
+            if f > 0.0 { high = a } else { low = a }
             let newton = a - f / rise;
-            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            let next =
+                if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
             let done = (next - a).abs() <= small;
             a = next;
             if done {
@@ -178,11 +180,14 @@ mod tests {
     fn a_free_pair_decays_like_the_exponential() {
         let (drag, h, mass) = (0.15, 1e-3, 2e-4);
         let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
-        let pair = Normal::new(&resist, [1.0, f64::INFINITY], [0.7, 0.0, 0.7], h, 1.0 / mass);
-        let p = pair.fit(0.7, 0.0, |gap| [drag * gap, drag]);
+        let gaps = [1.0, f64::INFINITY];
+        let (along, normal, searched) =
+            Along::new(&resist, gaps, [0.7, 0.0, 0.7], h, 1.0 / mass);
+        assert!(!searched);
+        let p = normal.fit(0.7, 0.0);
         let left = 0.7 + p / mass;
         assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
-        let exact = Normal { exact: true, ..pair };
-        assert!((exact.fit(0.7, 0.0, |gap| [drag * gap, drag]) / p - 1.0).abs() < 1e-12);
+        let found = along.search(0.7, 0.0, |gap| [drag * gap, drag]);
+        assert!((found / p - 1.0).abs() < 1e-12);
     }
 }
