@@ -2,9 +2,7 @@
 
 use pendular::BridgeForces;
 use pendular::contact::Linear;
-use pendular::dem::{
-    Contact, ContactForces, DVec3, Implicit, Impulse, Pair, PairTerm, Spring,
-};
+use pendular::dem::{Contact, ContactForces, DVec3, Implicit, Impulse, Pair, PairTerm, Spring};
 use pendular::pair::OutOfRange;
 use serde::{Deserialize, Serialize};
 

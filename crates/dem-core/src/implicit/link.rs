@@ -67,6 +67,10 @@ pub(crate) struct More {
 /// All links of a list.
 #[derive(Debug, Default)]
 pub(crate) struct Links {
+    /// What the impulses are still to be scaled by.
+    pub(crate) share: f64,
+    /// The first link with a wall.
+    pub(crate) walls_from: usize,
     pub(crate) met: Vec<Met>,
     pub(crate) links: Vec<Link>,
     pub(crate) kept: Vec<Kept>,
@@ -145,13 +149,8 @@ impl Links {
         // The line of centres turns during the step: |d − h v| grows by v_t² h/(2 |d|).
         let sideways = (v.length_squared() - speed * speed).max(0.0);
         let turn = if wall { 0.0 } else { 0.5 * drift * sideways / (levers[0] + levers[1]) };
-        let (along, linear, searched) = Along::new(
-            resist,
-            [gap, impulse.charged],
-            [rate, turn, speed],
-            duration,
-            mobility,
-        );
+        let (along, linear, searched) =
+            Along::new(resist, [gap, impulse.charged], [rate, turn, speed], duration, mobility);
         let across = mobility + levers[0] * levers[0] * ti + levers[1] * levers[1] * tj;
         let [a, b, d] = resist.across;
         let coupled = b != 0.0 || d != 0.0;
@@ -175,8 +174,7 @@ impl Links {
                 rolling_limit: duration * resist.rolling,
                 rolling_inertia: 1.0 / (ti + tj),
                 reduced,
-                coupled: coupled
-                    .then(|| Coupled::new(resist.across, motion, duration, mobility)),
+                coupled: coupled.then(|| Coupled::new(resist.across, motion, duration, mobility)),
             });
         }
         self.links.push(Link {
@@ -196,11 +194,9 @@ impl Links {
 
     /// Takes the velocities of the walls, by the index of the pair with one.
     pub(crate) fn meet_walls(&mut self, velocity: impl Fn(u32) -> DVec3) {
-        for (link, kept) in self.links.iter().zip(&self.kept) {
-            if let (List::Wall { .. }, Some(more)) =
-                (kept.list, self.more.get_mut(link.more as usize))
-            {
-                more.wall = velocity(kept.index);
+        for k in self.walls_from..self.links.len() {
+            if let Some(more) = self.more.get_mut(self.links[k].more as usize) {
+                more.wall = velocity(self.kept[k].index);
             }
         }
     }
@@ -234,12 +230,9 @@ impl Links {
         [a + c + turned, b + d]
     }
 
-    /// Scales what all pairs remember.
+    /// Scales what all pairs remember; the impulses of most of them when they are next looked at.
     pub(crate) fn scale(&mut self, share: f64) {
-        for link in &mut self.links {
-            link.push *= share;
-            link.shear *= share;
-        }
+        self.share = share;
         for more in &mut self.more {
             more.couple *= share;
             more.rolling *= share;
@@ -257,6 +250,8 @@ impl Links {
         charge: impl FnOnce(&Kept, f64, f64) -> f64,
     ) -> Change {
         let link = &mut self.links[k];
+        link.push *= self.share;
+        link.shear *= self.share;
         let (speed, slip) = link.motion(two);
         let push = if link.searched {
             charge(&self.kept[k], speed, link.push)
@@ -272,10 +267,7 @@ impl Links {
         link.give(two, change, shear, inverse);
         link.push = push;
         link.shear += shear;
-        Change {
-            changed: change.abs() + shear.length(),
-            all: push.abs() + link.shear.length(),
-        }
+        Change { changed: change.abs() + shear.length(), all: push.abs() + link.shear.length() }
     }
 
     /// What is remembered of a link after the step `drift`.
@@ -295,12 +287,7 @@ impl Links {
 
 impl Kept {
     /// As [`Along::search`].
-    pub(crate) fn search(
-        &self,
-        speed: f64,
-        now: f64,
-        charge: impl Fn(f64) -> [f64; 2],
-    ) -> f64 {
+    pub(crate) fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
         self.along.search(speed, now, charge)
     }
 }

@@ -20,16 +20,16 @@ const STIFF: f64 = 4.0;
 ///
 /// Above that it goes to 1, which it is from g = 4 on (backward Euler): every pass then lowers the
 /// energy, however stiff the pairs and however far the passes are from their end.
+#[inline]
 pub(super) fn weight(g: f64) -> f64 {
+    if g < 0.4 {
+        let g2 = g * g;
+        return 0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)));
+    }
     if g >= STIFF {
         return 1.0;
     }
-    let g2 = g * g;
-    let fitted = if g < 0.4 {
-        0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)))
-    } else {
-        1.0 / (1.0 - (-g).exp()) - 1.0 / g
-    };
+    let fitted = 1.0 / (1.0 - (-g).exp()) - 1.0 / g;
     1.0 - (1.0 - fitted) * ((STIFF - g) / (STIFF - 1.0)).min(1.0)
 }
 
@@ -52,11 +52,8 @@ impl Normal {
     /// The terms of the sums that scale a start: p (a + offset/slope) and p²/slope.
     #[inline(always)]
     pub(super) fn start(&self, now: f64, speed: f64) -> [f64; 2] {
-        if self.slope > 0.0 {
-            [now * (speed + self.offset / self.slope), now * now / self.slope]
-        } else {
-            [now * speed, 0.0]
-        }
+        let soft = if self.slope > 0.0 { 1.0 / self.slope } else { 0.0 };
+        [now * (speed + soft * self.offset), soft * now * now]
     }
 }
 
@@ -122,12 +119,7 @@ impl Along {
     /// bounds: what is searched for grows with the speed, by 1/mobility at least.
     #[cold]
     #[inline(never)]
-    pub(super) fn search(
-        &self,
-        speed: f64,
-        now: f64,
-        charge: impl Fn(f64) -> [f64; 2],
-    ) -> f64 {
+    pub(super) fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
         let own = speed - now * self.mobility;
         let [paid, _] = charge(self.charged);
         let (step, before) = (self.weight * self.duration, (1.0 - self.weight) * self.rate);
@@ -136,8 +128,7 @@ impl Along {
             let [to, drag] = charge(self.gap + step * u);
             let pull = self.dashpot * (before + self.weight * u);
             let capped = pull > self.pull;
-            let (pull, rise) =
-                if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
+            let (pull, rise) = if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
             let resisted = to - paid + self.duration * pull;
             [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
         };
@@ -147,10 +138,13 @@ impl Along {
         let mut a = speed.clamp(low, high);
         for _ in 0..MOST_ITERATIONS {
             let [f, rise] = lack(a);
-            if f > 0.0 { high = a } else { low = a }
+            if f > 0.0 {
+                high = a
+            } else {
+                low = a
+            }
             let newton = a - f / rise;
-            let next =
-                if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
             let done = (next - a).abs() <= small;
             a = next;
             if done {
@@ -181,8 +175,7 @@ mod tests {
         let (drag, h, mass) = (0.15, 1e-3, 2e-4);
         let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
         let gaps = [1.0, f64::INFINITY];
-        let (along, normal, searched) =
-            Along::new(&resist, gaps, [0.7, 0.0, 0.7], h, 1.0 / mass);
+        let (along, normal, searched) = Along::new(&resist, gaps, [0.7, 0.0, 0.7], h, 1.0 / mass);
         assert!(!searched);
         let p = normal.fit(0.7, 0.0);
         let left = 0.7 + p / mass;

@@ -21,6 +21,7 @@ pub(super) struct Slip {
 
 impl Slip {
     /// `before` is the slip before the kick, `mobility` what an impulse does to it, 1/kg.
+    #[inline(always)]
     pub(super) fn new(drag: f64, before: DVec3, duration: f64, mobility: f64) -> Self {
         let weight = weight(duration * drag * mobility);
         let slope = weight * duration * drag;
@@ -37,12 +38,8 @@ impl Slip {
     /// The sums that scale a start, as in [`super::normal::Normal::start`].
     #[inline(always)]
     pub(super) fn start(&self, now: DVec3, slip: DVec3) -> [f64; 2] {
-        if self.slope > 0.0 {
-            let along = now.dot(slip + self.offset / self.slope);
-            [along, now.length_squared() / self.slope]
-        } else {
-            [now.dot(slip), 0.0]
-        }
+        let soft = if self.slope > 0.0 { 1.0 / self.slope } else { 0.0 };
+        [now.dot(slip) + soft * now.dot(self.offset), soft * now.length_squared()]
     }
 }
 

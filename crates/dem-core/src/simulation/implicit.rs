@@ -221,9 +221,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                     let two = take(velocities, link.slots, 0, links.wall(link));
                     let index = kept.index as usize;
                     let column = match kept.list {
-                        List::Wall { memory } => {
-                            &mut walls[index].memories[memory as usize].column
-                        }
+                        List::Wall { memory } => &mut walls[index].memories[memory as usize].column,
                         _ => &mut list.columns[index],
                     };
                     if let Some(impulse) = term.impulse(column) {
@@ -280,6 +278,7 @@ where
         change = change + links.relax(k, &mut two, inverse, search);
         put(velocities, slots, start, two);
     }
+    links.share = 1.0;
     change
 }
 
@@ -318,6 +317,7 @@ impl<T: PairTerm> Gathering<'_, T> {
     fn walls<B: Boundary>(&self, chunk: &mut Chunk<T::Column>, boundary: &B) {
         let (view, term) = (self.view, self.term);
         let Chunk { walls, links, .. } = chunk;
+        links.walls_from = links.links.len();
         let there = walls.iter_mut().enumerate().filter(|(_, w)| boundary.is_present(w.part));
         for (index, wall) in there {
             for k in 0..wall.memories.len() {
