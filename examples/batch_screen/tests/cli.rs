@@ -269,13 +269,25 @@ const TABLES: [&str; 10] = [
 
 #[test]
 fn a_killed_run_goes_on_to_the_same_bytes() {
+    killed("liquid.viscosity=0.001");
+}
+
+/// A liquid as viscous as this one makes the drags implicit, and they remember their impulses.
+#[test]
+fn a_killed_run_with_implicit_drags_goes_on_to_the_same_bytes() {
+    let summary = killed("liquid.viscosity=10.0");
+    assert_eq!(summary["drag"], "implicit");
+}
+
+fn killed(set: &str) -> serde_json::Value {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();
-    let whole = run(folder.path(), &["run", "small.toml", "--out", "whole", "--vtk", "0.03"]);
+    let out = ["run", "small.toml", "--vtk", "0.03", "--set", set, "--out"];
+    let whole = run(folder.path(), &[&out[..], &["whole"]].concat());
     assert!(whole.status.success(), "{}", text(&whole.stderr));
     // Killed at three moments, the first before any row; each time it is taken up where it was.
     let quick = ["--checkpoint-every", "0.02", "--threads", "1"];
-    let mut args = vec!["run", "small.toml", "--out", "cut", "--vtk", "0.03"];
+    let mut args = [&out[..], &["cut"]].concat();
     for rows in [0, 3, 6] {
         let mut child = program()
             .current_dir(folder.path())
@@ -321,6 +333,30 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
     let imbalance = |run: &str| summary(&folder.path().join(run))["liquid_imbalance"].clone();
     assert_eq!(imbalance("whole"), imbalance("cut"));
     assert!(folder.path().join("cut/report.html").exists());
+    summary(&folder.path().join("cut"))
+}
+
+#[test]
+fn a_viscous_scene_runs_at_the_step_of_its_contacts() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let check = |set: &[&str]| {
+        let both = [&["check", "small.toml", "--set", "liquid.viscosity=10.0"], set].concat();
+        text(&run(folder.path(), &both).stdout)
+    };
+    let said = check(&[]);
+    assert!(said.contains("drag         implicit") && !said.contains("viscous drag"), "{said}");
+    let said = check(&["--set", "liquid.drag=explicit"]);
+    assert!(said.contains("drag         explicit, as asked for"), "{said}");
+    assert!(said.contains("set by the viscous drag"), "{said}");
+    let short = ["run", "small.toml", "--time", "0.02", "--set", "liquid.viscosity=10.0"];
+    let ran = run(folder.path(), &short);
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let refused = run(folder.path(), &[&short[..], &["--set", "liquid.drag=explicit"]].concat());
+    assert!(text(&refused.stderr).contains("viscous drag"), "{}", text(&refused.stderr));
+    let unknown = run(folder.path(), &["check", "small.toml", "--set", "liquid.drag=partly"]);
+    let said = text(&unknown.stderr);
+    assert!(said.contains("partly") && said.contains("implicit"), "{said}");
 }
 
 #[test]
