@@ -78,6 +78,12 @@ pub(crate) enum Command {
         /// The page.
         #[arg(long, default_value = "compare.html", value_name = "FILE")]
         out: PathBuf,
+        /// Draws the fraction retained over time into an SVG file too.
+        #[arg(long, value_name = "FILE")]
+        svg: Option<PathBuf>,
+        /// What the drawing shows: `total` or the name of a class.
+        #[arg(long, value_name = "NAME", default_value = "total", requires = "svg")]
+        of: String,
     },
 }
 

@@ -17,7 +17,7 @@ use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::scene::Scene;
-use crate::{auto, builtin, limits, needs, page, report};
+use crate::{auto, builtin, limits, needs, page, progress, report};
 
 /// More threads are taken for a mistake.
 const MOST_THREADS: usize = 1024;
@@ -275,6 +275,9 @@ fn finish(
     say(&report::table(scene, &derived, &outcome));
     let page = page::report(&job.out)?;
     say(&format!("results in {}, report in {}", job.out.display(), page.display()));
+    if style == Style::Json {
+        progress::done(&outcome.tally, &job.out, &page);
+    }
     Ok(())
 }
 
@@ -285,7 +288,15 @@ pub(crate) fn report(folder: &Path) -> Result<(), RunError> {
 }
 
 /// Overlays runs on one page.
-pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), RunError> {
+pub(crate) fn compare(
+    folders: &[PathBuf],
+    out: &Path,
+    drawing: Option<(&Path, &str)>,
+) -> Result<(), RunError> {
+    if let Some((path, column)) = drawing {
+        page::drawing(folders, column, path)?;
+        println!("{}", path.display());
+    }
     page::compare(folders, out)?;
     println!("{}", out.display());
     Ok(())

@@ -1,5 +1,6 @@
 //! Moist batch screening: spheres with liquid on a vibrating wire screen.
 
+mod assumed;
 mod auto;
 mod budget;
 mod build;
@@ -56,7 +57,9 @@ fn main() -> ExitCode {
         Command::Resume { folder, how } => commands::resume(&folder, &how),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Report { folder } => commands::report(&folder),
-        Command::Compare { folders, out } => commands::compare(&folders, &out),
+        Command::Compare { folders, out, svg, of } => {
+            commands::compare(&folders, &out, svg.as_deref().map(|svg| (svg, of.as_str())))
+        }
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

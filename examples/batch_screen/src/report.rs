@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::assumed;
 use crate::budget;
 use crate::build::{Built, Derived};
 use crate::error::RunError;
@@ -37,12 +38,11 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         "  screen       a = {} mm, w = {} mm, diameter {} mm, wires as {wires}\n",
         screen.aperture_mm, screen.wire_diameter_mm, screen.diameter_mm
     );
-    text += &format!(
-        "  motion       {} Hz, amplitude {:?} mm, at most {:.3} m/s\n",
-        scene.motion.frequency,
-        scene.motion.amplitude_mm,
-        wall_speed(&built.walls)
-    );
+    for term in scene.motion.all() {
+        let (frequency, amplitude) = (term.frequency, term.amplitude_mm);
+        text += &format!("  motion       {frequency} Hz, amplitude {amplitude:?} mm\n");
+    }
+    text += &format!("               at most {:.3} m/s\n", wall_speed(&built.walls));
     match &scene.liquid {
         None => text += "  liquid       none: a dry run\n",
         Some(liquid) => {
@@ -65,6 +65,9 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         100.0 * scene.guard.overlap_share,
         guard.speed()
     );
+    for (key, value) in assumed::list(scene) {
+        text += &format!("  assumed      {key} = {value}\n");
+    }
     text += &format!("  time step    {:.3e} s", built.settings.time_step);
     text
 }
@@ -170,9 +173,11 @@ pub(crate) fn summary(
         "scene": source,
         "title": scene.title,
         "decided": decided.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
-        "assumptions": {
-            "screen_diameter_mm": scene.screen.diameter_mm,
-            "amplitude_mm": scene.motion.amplitude_mm,
+        "assumptions": assumed::list(scene).into_iter().collect::<serde_json::Map<_, _>>(),
+        "screen": {
+            "diameter_mm": scene.screen.diameter_mm,
+            "aperture_mm": scene.screen.aperture_mm,
+            "wire_diameter_mm": scene.screen.wire_diameter_mm,
         },
         "derived": {
             "time_step_s": settings.time_step,
