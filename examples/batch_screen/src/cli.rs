@@ -35,6 +35,9 @@ pub(crate) enum Command {
     Check {
         /// A scene file or the name of a built-in scene.
         scene: String,
+        /// Takes another value for a key of the scene, as in `run`.
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
     },
     /// Proposes the smallest scene that gives the same result, with evidence from short runs.
     Needs {

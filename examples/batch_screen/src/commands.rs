@@ -98,8 +98,8 @@ fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
 }
 
 /// Checks a scene and says what follows from it.
-pub(crate) fn check(name: &str) -> Result<(), RunError> {
-    let Loaded { scene, base, .. } = load(name, &[])?;
+pub(crate) fn check(name: &str, set: &[String]) -> Result<(), RunError> {
+    let Loaded { scene, base, .. } = load(name, &sets(set)?)?;
     let built = build::build(&scene, &unsettled(&base, &AtomicBool::new(false)))?;
     println!("{}", report::header(&scene, &built));
     print!("{}", limits::text(&limits::table(&scene, &built), built.settings.time_step));
@@ -151,10 +151,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
     run_until(args, stop_flag())
 }
 
+/// What `--set` says, one `KEY=VALUE` each.
+fn sets(all: &[String]) -> Result<Vec<Set>, SceneError> {
+    all.iter().map(|set| Set::parse(set)).collect()
+}
+
 /// The scene that the command line asks for.
 fn asked(args: &RunArgs) -> Result<Loaded, SceneError> {
-    let sets: Vec<Set> = args.set.iter().map(|set| Set::parse(set)).collect::<Result<_, _>>()?;
-    let mut loaded = load(&args.scene, &sets)?;
+    let mut loaded = load(&args.scene, &sets(&args.set)?)?;
     let scene = &mut loaded.scene;
     scene.time = args.time.unwrap_or(scene.time);
     scene.time_step = args.dt.or(scene.time_step);

@@ -49,7 +49,7 @@ fn main() -> ExitCode {
         Command::List => commands::list(),
         Command::Show { name } => commands::show(&name),
         Command::Sample { file, sweep } => commands::sample(file, sweep),
-        Command::Check { scene } => commands::check(&scene),
+        Command::Check { scene, set } => commands::check(&scene, &set),
         Command::Needs { scene, tolerance, time, beds, threads } => {
             commands::needs(&scene, tolerance, time, beds.as_deref(), threads)
         }

@@ -55,7 +55,7 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
                 liquid.normal_drag,
                 liquid.tangential_drag,
                 liquid.rupture,
-                drag(liquid.drag, built.implicit)
+                drag(liquid.drag, derived.implicit)
             );
         }
     }
@@ -187,6 +187,7 @@ pub(crate) fn summary(
             "film_m": derived.film,
         },
         "time_s": tally.time,
+        "drag": scene.liquid.as_ref().map(|_| if derived.implicit { "implicit" } else { "explicit" }),
         "steps": outcome.steps,
         "threads": settings.threads,
         "fraction_retained": {

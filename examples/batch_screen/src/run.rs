@@ -79,10 +79,10 @@ pub(crate) fn run(
     from: Option<Checkpoint>,
     progress: &Progress,
 ) -> Result<Outcome, RunError> {
-    let Built { particles, walls, contact, wet, implicit, settings, derived } = built;
+    let Built { particles, walls, contact, wet, settings, derived } = built;
     match wet {
         None => begin(scene, particles, contact, walls, settings, derived, job, from)?.go(progress),
-        Some(wet) if implicit => {
+        Some(wet) if derived.implicit => {
             let term = Implicit::new((contact, wet));
             begin(scene, particles, term, walls, settings, derived, job, from)?.go(progress)
         }

@@ -28,8 +28,6 @@ pub(crate) struct Built {
     pub(crate) walls: MeshWalls,
     pub(crate) contact: Contact<Linear>,
     pub(crate) wet: Option<WetTerm>,
-    /// Whether drags are solved for at the end of the step.
-    pub(crate) implicit: bool,
     pub(crate) settings: Settings,
     pub(crate) derived: Derived,
 }
@@ -49,6 +47,8 @@ pub(crate) struct Derived {
     pub(crate) liquid: f64,
     /// Class, by particle id.
     pub(crate) class: Vec<u16>,
+    /// Whether drags are solved for at the end of the step.
+    pub(crate) implicit: bool,
 }
 
 /// Builds a scene, its bed settled if it is to be.
@@ -87,7 +87,7 @@ fn around(
     let classes = particles.classes().to_vec();
     let contact = laws::contact(scene, &classes).map_err(|e| scene.at("contacts", e))?;
     let walls = apparatus::walls(scene, base)?;
-    let derived = derive(scene, &classes, class);
+    let mut derived = derive(scene, &classes, class);
     let wet = match &scene.liquid {
         Some(spec) => {
             let wet = laws::wet(scene, spec, &classes, &derived, &walls);
@@ -96,10 +96,10 @@ fn around(
         None => None,
     };
     let loads = loads(&classes, &contact, wet.as_ref());
-    let implicit = is_implicit(scene, &classes, &loads);
-    let limit = Limit::packing(&classes, &resisted(loads, implicit)).time_step;
+    derived.implicit = is_implicit(scene, &classes, &loads);
+    let limit = Limit::packing(&classes, &resisted(loads, derived.implicit)).time_step;
     let settings = settings(scene, limit, threads);
-    Ok(Built { particles, walls: MeshWalls(walls), contact, wet, implicit, settings, derived })
+    Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
 }
 
 /// Whether the drags are to be implicit: as the scene says, or where they would limit the step more
@@ -147,6 +147,7 @@ fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
     Derived {
         film: film_thickness(classes, &counts, liquid),
         class,
+        implicit: false,
         counts,
         masses,
         solid_mass,
@@ -199,7 +200,7 @@ pub(crate) fn limit(built: &Built) -> Limit {
 /// The strongest pairs of each class of a built scene.
 pub(crate) fn loads_of(built: &Built) -> Vec<StabilityLoad> {
     let loads = loads(built.particles.classes(), &built.contact, built.wet.as_ref());
-    resisted(loads, built.implicit)
+    resisted(loads, built.derived.implicit)
 }
 
 fn loads(
