@@ -6,14 +6,16 @@ use std::time::Duration;
 use glam::DVec3;
 
 use crate::lists::PairList;
-use crate::pass::View;
+use crate::particles::Row;
+use crate::view::View;
 use crate::{Encounter, Touch, wall_pass};
 
 /// Force and torque on one particle.
 #[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
 pub(crate) struct Sum {
-    pub(crate) force: DVec3,
-    pub(crate) torque: DVec3,
+    pub(crate) force: Row,
+    pub(crate) torque: Row,
 }
 
 /// What rolling friction needs of one particle: in a read the braking torque and the number of
@@ -33,6 +35,10 @@ pub(crate) struct Memory<C> {
     pub(crate) column: C,
 }
 
+/// The touches of a particle with a wall part. Nearly always one: it lies in the list, so that no
+/// step goes to look for it elsewhere.
+pub(crate) type Memories<C> = smallvec::SmallVec<[Memory<C>; 1]>;
+
 /// A particle near a wall part.
 #[derive(Debug, Clone)]
 pub(crate) struct WallPair<C> {
@@ -40,7 +46,7 @@ pub(crate) struct WallPair<C> {
     pub(crate) part: u32,
     /// Where the candidates lie in the chunk's pool.
     pub(crate) candidates: Range<usize>,
-    pub(crate) memories: Vec<Memory<C>>,
+    pub(crate) memories: Memories<C>,
 }
 
 /// Which list an entry stands in.
@@ -72,7 +78,7 @@ pub(crate) struct Chunk<C> {
     /// Scratch: the places of those pairs of a list that act and do not touch.
     pub(crate) apart: Vec<u32>,
     pub(crate) touches: Vec<Touch>,
-    pub(crate) memories: Vec<Memory<C>>,
+    pub(crate) memories: Memories<C>,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -93,7 +99,7 @@ impl<C: Copy + Default> Chunk<C> {
             notes: Vec::new(),
             apart: Vec::new(),
             touches: Vec::new(),
-            memories: Vec::new(),
+            memories: Memories::new(),
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,
