@@ -134,24 +134,22 @@ fn pick<T: PairTerm, L: Lane>(
 ) -> usize {
     let end = list.active.len().min(start + TILE);
     let (tile, columns) = (&list.active[start..end], &mut list.columns[start..end]);
-    let (gaps, touches) = gaps::<L>(pass.permit, pass.view, tile);
+    let gaps = gaps::<L>(pass.permit, pass.view, tile);
     let (mut near, mut far) = (waiting, 0);
     let mut others = [0; TILE];
-    for index in 0..tile.len() {
-        let touch = touches >> index & 1 == 1;
+    for (index, gap) in gaps.iter().enumerate().take(tile.len()) {
+        let touch = *gap < 0.0;
         touching[near] = (start + index) as u32;
         near += usize::from(touch);
         others[far % TILE] = index as u32;
         far += usize::from(!touch);
     }
-    let mut acts = |index: usize| {
-        !pass.term.idle(&pass.view.encounter(tile[index], gaps[index]), &mut columns[index])
-    };
     if !T::ACTS_IN_OVERLAP {
         let mut kept = waiting;
         for k in waiting..near {
             touching[kept] = touching[k];
-            kept += usize::from(acts(touching[k] as usize - start));
+            let index = touching[k] as usize - start;
+            kept += usize::from(acts(pass, tile[index], gaps[index], &mut columns[index]));
         }
         near = kept;
     }
@@ -159,30 +157,37 @@ fn pick<T: PairTerm, L: Lane>(
     for k in 0..far.min(TILE) {
         let index = others[k];
         others[kept] = start as u32 + index;
-        kept += usize::from(acts(index as usize));
+        let index = index as usize;
+        kept += usize::from(acts(pass, tile[index], gaps[index], &mut columns[index]));
     }
     apart.extend_from_slice(&others[..kept]);
     near
 }
 
-/// Gaps of a tile of pairs, and one bit for each pair that touches.
 #[inline(always)]
-fn gaps<L: Lane>(permit: L::Permit, view: &View<'_>, tile: &[Entry]) -> ([f64; TILE], u128) {
-    let (mut gaps, mut touches) = ([0.0; TILE], 0);
+fn acts<T: PairTerm, L: Lane>(
+    pass: &Pass<'_, T, L>,
+    entry: Entry,
+    gap: f64,
+    column: &mut T::Column,
+) -> bool {
+    !pass.term.idle(&pass.view.encounter(entry, gap), column)
+}
+
+/// Gaps of a tile of pairs.
+#[inline(always)]
+fn gaps<L: Lane>(permit: L::Permit, view: &View<'_>, tile: &[Entry]) -> [f64; TILE] {
+    let mut gaps = [0.0; TILE];
     let (entries, out) = (tile.chunks_exact(L::WIDTH), gaps.chunks_exact_mut(L::WIDTH));
     let rest = entries.remainder();
-    for (block, (entries, out)) in entries.zip(out).enumerate() {
-        let gap = view.distances::<L>(permit, &L::each(|k| entries[k])).gap;
-        touches |= u128::from(gap.less_bits(L::splat(permit, 0.0))) << (block * L::WIDTH);
-        let gap = gap.unpack();
+    for (entries, out) in entries.zip(out) {
+        let gap = view.distances::<L>(permit, &L::each(|k| entries[k])).gap.unpack();
         (0..L::WIDTH).for_each(|k| out[k] = gap[k]);
     }
-    for (index, entry) in rest.iter().enumerate() {
-        let index = tile.len() - rest.len() + index;
-        gaps[index] = view.distances::<f64>((), &[*entry]).gap;
-        touches |= u128::from(gaps[index] < 0.0) << index;
+    for (entry, out) in rest.iter().zip(&mut gaps[tile.len() - rest.len()..]) {
+        *out = view.distances::<f64>((), &[*entry]).gap;
     }
-    (gaps, touches)
+    gaps
 }
 
 /// Adds a load to the particle at a wall.
