@@ -184,15 +184,14 @@ fn fade<L: Lane>(exponent: L) -> L {
 /// 1e-17.
 #[inline(always)]
 fn series<L: Lane>(x: L) -> L {
-    /// Of x^12, x^13 down to those of x^0, x^1: the two sums do not wait for each other.
-    const TERMS: [[f64; 2]; 7] = [
+    /// Of x^12, x^13 down to those of x^2, x^3: the two sums do not wait for each other.
+    const TERMS: [[f64; 2]; 6] = [
         [1.0 / 479_001_600.0, 1.0 / 6_227_020_800.0],
         [1.0 / 3_628_800.0, 1.0 / 39_916_800.0],
         [1.0 / 40_320.0, 1.0 / 362_880.0],
         [1.0 / 720.0, 1.0 / 5_040.0],
         [1.0 / 24.0, 1.0 / 120.0],
         [0.5, 1.0 / 6.0],
-        [1.0, 1.0],
     ];
     let permit = x.permit();
     let x = x * L::splat(permit, 0.25);
@@ -202,7 +201,8 @@ fn series<L: Lane>(x: L) -> L {
         even = even * square + L::splat(permit, *of_even);
         odd = odd * square + L::splat(permit, *of_odd);
     }
-    let root = even + x * odd;
+    let one = L::splat(permit, 1.0);
+    let root = (x * (odd * square + one) + even * square) + one;
     let square = root * root;
     square * square
 }
