@@ -9,7 +9,8 @@ use crate::implicit::Inverse;
 use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
 use crate::particles::Particles;
-use crate::pass::{self, View};
+use crate::pass;
+use crate::view::View;
 use crate::{Boundary, PairTerm, Partner, Profile, SimulationError, Visit, wall_pass};
 
 mod deepest;

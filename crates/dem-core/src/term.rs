@@ -41,6 +41,10 @@ pub trait PairTerm: Send + Sync {
     /// it pays to bring pairs to it several at a time.
     const LANES: bool = false;
 
+    /// Whether something acts in every pair in overlap: then [`PairTerm::idle`] is not asked of such
+    /// pairs, not of the terms beside this one either.
+    const ACTS_IN_OVERLAP: bool = false;
+
     /// Whether a load can have a couple.
     const COUPLES: bool = true;
 
@@ -53,6 +57,11 @@ pub trait PairTerm: Send + Sync {
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
         Loads::pack(pairs.permit, &L::each(|k| self.load(&pairs.pair(k), columns.column(k))))
+    }
+
+    /// Whether the term is not there at all, so that nothing needs to be asked of it or added.
+    fn is_absent(&self) -> bool {
+        false
     }
 
     /// Whether the column must not be lost, whatever the gap.
@@ -190,6 +199,7 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
 
     const SETTLES: bool = A::SETTLES || B::SETTLES;
     const LANES: bool = A::LANES || B::LANES;
+    const ACTS_IN_OVERLAP: bool = A::ACTS_IN_OVERLAP || B::ACTS_IN_OVERLAP;
     const COUPLES: bool = A::COUPLES || B::COUPLES;
 
     #[inline(always)]
@@ -198,8 +208,19 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
+        if self.0.is_absent() {
+            return self.1.load_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns));
+        }
         let first = self.0.load_lanes(pairs, &mut Part::<_, First<B::Column>>::of(columns));
+        if self.1.is_absent() {
+            return first;
+        }
         first + self.1.load_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns))
+    }
+
+    #[inline(always)]
+    fn is_absent(&self) -> bool {
+        self.0.is_absent() && self.1.is_absent()
     }
 
     #[inline(always)]
@@ -309,6 +330,11 @@ impl<T: PairTerm> PairTerm for Option<T> {
             Some(term) => term.load_lanes(pairs, columns),
             None => Loads::none(pairs.permit),
         }
+    }
+
+    #[inline(always)]
+    fn is_absent(&self) -> bool {
+        self.as_ref().is_none_or(T::is_absent)
     }
 
     #[inline(always)]

@@ -113,10 +113,24 @@ impl Inverse<'_> {
     }
 }
 
-/// The velocities of the bodies of a link.
+/// Velocity and spin of a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Body {
+    pub(crate) v: DVec3,
+    pub(crate) w: DVec3,
+}
+
+impl From<Velocity> for Body {
+    fn from(velocity: Velocity) -> Self {
+        Self { v: velocity.v.vector(), w: velocity.w.vector() }
+    }
+}
+
+/// The bodies of a link.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Two {
-    pub(crate) first: Velocity,
-    pub(crate) second: Velocity,
+    pub(crate) first: Body,
+    pub(crate) second: Body,
 }
 
 impl Links {

@@ -7,7 +7,7 @@ mod term;
 
 use glam::DVec3;
 
-pub(crate) use link::{Change, Inverse, Kept, Links, Met, Two};
+pub(crate) use link::{Body, Change, Inverse, Kept, Links, Met, Two};
 pub use term::Implicit;
 
 /// What resists the relative motion of a pair, for [`Implicit`].

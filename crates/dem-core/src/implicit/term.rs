@@ -59,6 +59,7 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
     const LANES: bool = T::LANES;
     const COUPLES: bool = T::COUPLES;
     const SETTLES: bool = T::SETTLES;
+    const ACTS_IN_OVERLAP: bool = T::ACTS_IN_OVERLAP;
     const IMPLICIT: bool = true;
 
     #[inline(always)]

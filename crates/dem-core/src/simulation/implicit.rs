@@ -10,18 +10,16 @@ use rayon::prelude::*;
 
 use super::{Simulation, parallel};
 use crate::chunk::{Chunk, List};
-use crate::implicit::{Change, Inverse, Kept, Links, Met, Passes, Two};
+use crate::implicit::{Body, Change, Inverse, Kept, Links, Met, Passes, Two};
 use crate::integrate::{Moved, drift};
-use crate::particles::Velocity;
-use crate::pass::View;
+use crate::particles::{Row, Velocity};
+use crate::view::View;
 use crate::{Boundary, DVec3, Encounter, PairTerm, wall_pass};
 
 /// Passes stop when they change the impulses by less than this share of them.
 const SETTLED: f64 = 1e-3;
 const LEAST_PASSES: u32 = 2;
 const MOST_PASSES: u32 = 50;
-
-const STILL: Velocity = Velocity { v: DVec3::ZERO, w: DVec3::ZERO };
 
 impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// How hard the implicit resistances were to find so far.
@@ -100,7 +98,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let Self { chunks, particles, before: pushed, inverse, lists, settings, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
         let velocities = &mut particles.velocities;
-        pushed.fill(STILL);
+        pushed.fill(Velocity::new(DVec3::ZERO, DVec3::ZERO));
         let size = lists.chunk_size;
         let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
         let one = |(chunk, pushed): (&Chunk<T::Column>, &mut [Velocity])| {
@@ -133,14 +131,15 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             .zip(&particles.class)
             .map(|(d, &class)| {
                 let [m, i] = inverse.classes[usize::from(class)];
-                d.v.length_squared() / m + d.w.length_squared() / i
+                d.v.vector().length_squared() / m + d.w.vector().length_squared() / i
             })
             .sum();
         let below = moved + sums[1];
         let share = if below > 0.0 { (-sums[0] / below).clamp(0.0, 1.0) } else { 0.0 };
         for (velocity, push) in particles.velocities.iter_mut().zip(pushed.iter()) {
-            velocity.v += share * push.v;
-            velocity.w += share * push.w;
+            let (v, w) = (push.v.vector(), push.w.vector());
+            velocity.v.add(Row::new(share * v).0);
+            velocity.w.add(Row::new(share * w).0);
         }
         for chunk in chunks {
             chunk.links.scale(share);
@@ -236,21 +235,20 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 /// The two bodies of a link, a wall in the place of the second where both slots are the same.
 #[inline(always)]
 fn take(velocities: &[Velocity], [a, b]: [u32; 2], start: u32, wall: DVec3) -> Two {
-    let first = velocities[(a - start) as usize];
-    let second = if a == b {
-        Velocity { v: wall, w: DVec3::ZERO }
-    } else {
-        velocities[(b - start) as usize]
-    };
-    Two { first, second }
+    let body = |slot: u32| Body::from(velocities[(slot - start) as usize]);
+    let second = if a == b { Body { v: wall, w: DVec3::ZERO } } else { body(b) };
+    Two { first: body(a), second }
 }
 
 #[inline(always)]
 fn put(velocities: &mut [Velocity], [a, b]: [u32; 2], start: u32, two: Two) {
+    let mut set = |slot: u32, body: Body| {
+        velocities[(slot - start) as usize] = Velocity::new(body.v, body.w);
+    };
     if a != b {
-        velocities[(b - start) as usize] = two.second;
+        set(b, two.second);
     }
-    velocities[(a - start) as usize] = two.first;
+    set(a, two.first);
 }
 
 /// One pass over a list.
@@ -305,8 +303,8 @@ impl<T: PairTerm> Gathering<'_, T> {
                 let encounter = view.encounter(met.slots, met.gap);
                 let classes = [view.class[a], view.class[b]];
                 let column = &mut list.columns[met.index as usize];
-                let kicked = Two { first: self.kicked[a], second: self.kicked[b] };
-                let before = Two { first: view.velocities[a], second: view.velocities[b] };
+                let both = |of: &[Velocity]| Two { first: of[a].into(), second: of[b].into() };
+                let (before, kicked) = (both(view.velocities), both(self.kicked));
                 let radii = [view.places[a].r, view.places[b].r];
                 self.link(links, met, &encounter, classes, column, [&before, &kicked], radii);
             }
@@ -342,9 +340,9 @@ impl<T: PairTerm> Gathering<'_, T> {
                     rate: pair.separation_speed,
                     slip: pair.slip,
                 };
-                let second = Velocity { v: boundary.velocity(part), w: DVec3::ZERO };
-                let kicked = Two { first: self.kicked[slot as usize], second };
-                let before = Two { first: view.velocities[slot as usize], second };
+                let second = Body { v: boundary.velocity(part), w: DVec3::ZERO };
+                let of = |all: &[Velocity]| Two { first: all[slot as usize].into(), second };
+                let (before, kicked) = (of(view.velocities), of(self.kicked));
                 let classes = [pair.first_class, pair.second_class];
                 let both = [&before, &kicked];
                 self.link(links, &met, &encounter, classes, column, both, pair.radii);
