@@ -284,18 +284,17 @@ impl Links {
         Change { changed: change.abs() + shear.length(), all: push.abs() + link.shear.length() }
     }
 
-    /// What is remembered of a link after the step `drift`.
-    pub(crate) fn close(&self, k: usize, two: &Two, drift: f64) -> Impulse {
+    /// Remembers a link after the step `drift`.
+    #[inline(always)]
+    pub(crate) fn close(&self, k: usize, two: &Two, drift: f64, impulse: &mut Impulse) {
         let link = &self.links[k];
         let (speed, _) = link.motion(two);
+        impulse.charged = self.kept[k].along.charged(speed, drift);
+        impulse.normal = link.push;
+        impulse.shear = link.shear;
         let more = self.more.get(link.more as usize);
-        Impulse {
-            charged: self.kept[k].along.charged(speed, drift),
-            normal: link.push,
-            shear: link.shear,
-            couple: more.map_or(DVec3::ZERO, |more| more.couple),
-            rolling: more.map_or(DVec3::ZERO, |more| more.rolling),
-        }
+        impulse.couple = more.map_or(DVec3::ZERO, |more| more.couple);
+        impulse.rolling = more.map_or(DVec3::ZERO, |more| more.rolling);
     }
 }
 

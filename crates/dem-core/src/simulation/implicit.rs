@@ -224,7 +224,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                         _ => &mut list.columns[index],
                     };
                     if let Some(impulse) = term.impulse(column) {
-                        *impulse = links.close(k, &two, drift);
+                        links.close(k, &two, drift, impulse);
                     }
                 }
             }

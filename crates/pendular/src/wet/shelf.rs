@@ -171,6 +171,20 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
+    /// Drag along the line of centres, resistances across it and the inverse length over which they
+    /// fade, of a pair in overlap; `None` without a bridge or where the curves have to be asked.
+    #[inline]
+    pub(super) fn fading(&self, hold: &Hold, gap: f64) -> Option<(f64, [f64; 3], f64)> {
+        let seat = hold.seat as usize;
+        let Row([_, drag, slip, fade]) = *self.contact.get(seat)?;
+        if fade < 0.0 {
+            return None;
+        }
+        let [coupling, rolling] = self.turning.get(seat).copied().unwrap_or_default();
+        let weight = (fade * gap).exp();
+        Some((weight * drag, [slip, coupling, rolling].map(|c| weight * c), fade))
+    }
+
     /// What is kept of a pair's bridge.
     #[inline]
     pub(super) fn held(&self, hold: &Hold) -> Option<&Far<C, N, S>> {

@@ -161,6 +161,12 @@ where
 
     #[inline(always)]
     fn resist(&self, _: &Encounter, _: [u16; 2], column: &Hold, gap: f64) -> Resist {
+        if gap < 0.0
+            && let Some((drag, across, fade)) = self.shelf.fading(column, gap)
+        {
+            let clearance = if fade > 0.0 { 1.0 / fade } else { f64::INFINITY };
+            return Resist { drag, clearance, across, ..Resist::default() };
+        }
         let Some(far) = self.shelf.held(column) else { return Resist::default() };
         let (_, normal, tangential) = &far.curves;
         let across = tangential.resistance(gap);
