@@ -16,6 +16,7 @@ use crate::error::{RunError, SceneError};
 use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
+use crate::say;
 use crate::scene::Scene;
 use crate::{auto, builtin, limits, needs, page, progress, report};
 
@@ -26,7 +27,7 @@ const MOST_THREADS: usize = 1024;
 pub(crate) fn list() -> Result<(), RunError> {
     for (name, text) in builtin::SCENES {
         let scene = Scene::parse(text, Path::new(name))?;
-        println!("{name:<8} {}", scene.title);
+        say::line(format_args!("{name:<8} {}", scene.title));
     }
     Ok(())
 }
@@ -34,7 +35,7 @@ pub(crate) fn list() -> Result<(), RunError> {
 /// Prints a built-in scene.
 pub(crate) fn show(name: &str) -> Result<(), RunError> {
     let text = builtin::find(name).ok_or_else(|| unknown(name))?;
-    print!("{text}");
+    say::text(text);
     Ok(())
 }
 
@@ -47,7 +48,7 @@ pub(crate) fn sample(file: Option<PathBuf>, sweep: bool) -> Result<(), RunError>
     let path = file.unwrap_or_else(|| PathBuf::from(name));
     let write = || fs::File::create_new(&path)?.write_all(text.as_bytes());
     write().map_err(|source| RunError::Write { path: path.clone(), source })?;
-    println!("wrote {0}; run it with: batch_screen {verb} {0}", path.display());
+    say::line(format_args!("wrote {0}; run it with: batch_screen {verb} {0}", path.display()));
     Ok(())
 }
 
@@ -101,15 +102,15 @@ fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
 pub(crate) fn check(name: &str, set: &[String]) -> Result<(), RunError> {
     let Loaded { scene, base, .. } = load(name, &sets(set)?)?;
     let built = build::build(&scene, &unsettled(&base, &AtomicBool::new(false)))?;
-    println!("{}", report::header(&scene, &built));
-    print!("{}", limits::text(&limits::table(&scene, &built), built.settings.time_step));
+    say::line(format_args!("{}", report::header(&scene, &built)));
+    say::text(&limits::text(&limits::table(&scene, &built), built.settings.time_step));
     let limit = build::limit(&built);
     let share = 100.0 * built.settings.time_step / limit.time_step;
     let class = &scene.classes[limit.class].name;
-    println!(
+    say::line(format_args!(
         "  limit        {:.3e} s, set by the {} of class {class}; the time step is {share:.0} % of it",
         limit.time_step, limit.term
-    );
+    ));
     Ok(within_limit(&scene, &built)?)
 }
 
@@ -143,7 +144,7 @@ pub(crate) fn needs(
     let source = Source { beds, threads, tell: true, ..unsettled(&base, &stop) };
     let decided = auto::decide(&scene, &source)?;
     auto::apply(&mut scene, &decided);
-    needs::needs(scene, &source, time, tolerance, &|text| println!("{text}"))
+    needs::needs(scene, &source, time, tolerance, &|text| say::line(format_args!("{text}")))
 }
 
 /// Runs a scene.
@@ -232,7 +233,10 @@ pub(crate) fn resume_until(
     let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
     built.settings.allow_unstable = checkpoint.allow_unstable;
     if !(how.quiet || how.json) {
-        println!("going on from t = {:.4} s", checkpoint.core.time(checkpoint.time_step));
+        say::line(format_args!(
+            "going on from t = {:.4} s",
+            checkpoint.core.time(checkpoint.time_step)
+        ));
     }
     let job = Job {
         out: folder.to_path_buf(),
@@ -262,7 +266,7 @@ fn finish(
     };
     let say = |text: &str| {
         if style == Style::People {
-            println!("{text}");
+            say::line(format_args!("{text}"));
         }
     };
     say(&report::header(scene, &built));
@@ -287,7 +291,7 @@ fn finish(
 
 /// Makes the report of a run.
 pub(crate) fn report(folder: &Path) -> Result<(), RunError> {
-    println!("{}", page::report(folder)?.display());
+    say::line(format_args!("{}", page::report(folder)?.display()));
     Ok(())
 }
 
@@ -299,10 +303,10 @@ pub(crate) fn compare(
 ) -> Result<(), RunError> {
     if let Some((path, column)) = drawing {
         page::drawing(folders, column, path)?;
-        println!("{}", path.display());
+        say::line(format_args!("{}", path.display()));
     }
     page::compare(folders, out)?;
-    println!("{}", out.display());
+    say::line(format_args!("{}", out.display()));
     Ok(())
 }
 

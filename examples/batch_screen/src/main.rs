@@ -24,6 +24,7 @@ mod place;
 mod progress;
 mod report;
 mod run;
+mod say;
 mod scene;
 mod screening;
 mod spent;

@@ -11,6 +11,7 @@ use pendular::dem::Simulation;
 use serde_json::json;
 
 use crate::makeup::Makeup;
+use crate::say;
 use crate::tally::Tally;
 
 /// Time between renewals of the line, s.
@@ -119,7 +120,10 @@ impl Progress {
         if self.style == Style::People && self.bar.is_hidden() {
             let above: u64 = tally.above.iter().sum();
             let bridges = tally.alive();
-            eprintln!("t = {:.3} s: {above} above the screen, {bridges} bridges", tally.time);
+            say::note(format_args!(
+                "t = {:.3} s: {above} above the screen, {bridges} bridges",
+                tally.time
+            ));
         }
     }
 

@@ -118,6 +118,30 @@ fn until(folder: &Path, args: &[&str], wanted: &str) -> (Child, impl BufRead + u
 }
 
 #[test]
+fn a_run_goes_on_when_nobody_reads_what_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    for args in [
+        &["list"][..],
+        &["check", "small.toml"],
+        &["run", "small.toml", "--time", "0.005", "--set", LOOSE, "--out", "o"],
+        &["run", "small.toml", "--time", "0.005", "--set", LOOSE, "--json"],
+    ] {
+        let mut child = program()
+            .current_dir(folder.path())
+            .args(args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // As `head` does when it has its lines.
+        drop((child.stdout.take(), child.stderr.take()));
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{args:?}");
+    }
+    assert!(folder.path().join("o/report.html").exists());
+}
+
+#[test]
 fn a_bed_that_is_not_at_rest_in_time_says_so() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();

@@ -162,3 +162,29 @@ fn from_file(scene: &Scene, file: &PartFile, base: &Path) -> Result<Part, WallEr
     let part = Part::new(file.name.clone(), Shape::Mesh(mesh)).with_motion(motion);
     Ok(part.with_material(material).with_half_side(half_side))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    #[test]
+    fn the_motion_is_the_sum_of_the_terms_of_the_commented_sample() {
+        let demo = crate::builtin::find("demo").unwrap();
+        let (before, after) = demo.split_once("# [[motion.terms]]").unwrap();
+        let (block, rest) = after.split_once("\n\n").unwrap();
+        let block = block.replace("\n# ", "\n");
+        let text = format!("{before}[[motion.terms]]{block}\n\n{rest}");
+        let scene = Scene::parse(&text, Path::new("s.toml")).unwrap();
+        let motion = motion(&scene);
+        for time in [0.0, 3e-3, 0.1234] {
+            let x = motion.displacement(time);
+            let first = TAU * 50.6 * time;
+            // The quarter turns are exact by hand: sin(a + 90°) = cos a.
+            assert!((x.x - 0.08e-3 * first.cos()).abs() < 1e-15);
+            assert!((x.z - 1e-3 * (first.sin() + 0.1 * (2.0 * first).cos())).abs() < 1e-15);
+        }
+        assert_eq!(scene.motion.reach_mm(), [0.08, 0.05, 1.1]);
+    }
+}

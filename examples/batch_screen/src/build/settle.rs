@@ -16,6 +16,7 @@ use crate::checkpoint::{Core, load, store};
 use crate::error::SceneError;
 use crate::makeup::Makeup;
 use crate::packing::Placed;
+use crate::say;
 use crate::scene::Scene;
 
 /// A bed counts as settled below this kinetic energy over the energy of a fall by one radius.
@@ -78,11 +79,11 @@ pub(super) fn settle(
     }
     let moving = motion(&bed, classes) / unit;
     if how.tell && moving >= AT_REST {
-        eprintln!(
+        say::note(format_args!(
             "the bed still moves after {:.2} s, the longest that packing.settle_at_most allows: \
              its energy of motion is {moving:.1e} of that of a fall by one radius; it starts at rest",
             bed.time()
-        );
+        ));
     }
     let mut all: Vec<_> = bed.particles().iter().collect();
     all.sort_by_key(|particle| particle.id);
@@ -119,12 +120,18 @@ fn begin(
         let snapshot = core.snapshot().map(|stored| contact.load_pair(stored).unwrap_or_default());
         let bed = Simulation::restore(particles, contact, walls, settings, snapshot)?;
         if how.tell {
-            eprintln!("going on with the settling of the bed from t = {:.4} s", bed.time());
+            say::note(format_args!(
+                "going on with the settling of the bed from t = {:.4} s",
+                bed.time()
+            ));
         }
         return Ok(bed);
     }
     if how.tell {
-        eprintln!("settling {} spheres in the feed bin; kept for the next run", loose.len());
+        say::note(format_args!(
+            "settling {} spheres in the feed bin; kept for the next run",
+            loose.len()
+        ));
     }
     for one in loose {
         particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;

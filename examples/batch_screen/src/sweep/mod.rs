@@ -16,6 +16,7 @@ use crate::cli::{Emit, How, RunArgs, SweepArgs};
 use crate::commands;
 use crate::error::{RunError, SceneError};
 use crate::place::Place;
+use crate::say;
 
 /// A commented sweep file to start from.
 pub(crate) const SAMPLE: &str = include_str!("sample.toml");
@@ -47,8 +48,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
     let jobs = args.jobs.max(1);
     let threads = args.how.threads.unwrap_or((cores / jobs).max(1));
     match args.emit {
-        Some(Emit::List) => print!("{}", emit::list(&plan, args, &out, threads)),
-        Some(Emit::Slurm) => print!("{}", emit::slurm(&plan, args, &out, threads)),
+        Some(Emit::List) => say::text(&emit::list(&plan, args, &out, threads)),
+        Some(Emit::Slurm) => say::text(&emit::slurm(&plan, args, &out, threads)),
         None => {
             let beds = args.beds.clone().unwrap_or_else(|| out.join("beds"));
             let how = How { threads: Some(threads), ..args.how.clone() };
@@ -170,14 +171,14 @@ impl Sweep<'_> {
                 "run": run.name, "status": status.name(), "exit": code, "message": tail,
                 "done": done, "runs": all,
             });
-            println!("{line}");
+            say::line(format_args!("{line}"));
         }
         self.tell(&format!("[{done}/{all}] {}: {}: {tail}", run.name, status.name()));
     }
 
     fn tell(&self, text: &str) {
         if !(self.how.quiet || self.how.json) {
-            println!("{text}");
+            say::line(format_args!("{text}"));
         }
     }
 
