@@ -28,12 +28,12 @@
 //! 310, 109524. Limits of the step in packings: O'Sullivan & Bray (2004), Eng. Comput. 21, 278;
 //! Otsubo, O'Sullivan & Shire (2017), Comput. Geotech. 86, 67.
 
-mod block;
 mod boundary;
 mod chunk;
 mod contact;
 mod error;
 mod grid;
+mod held;
 mod implicit;
 mod integrate;
 mod lane;

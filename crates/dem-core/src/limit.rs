@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Class;
-use crate::block::Block;
+use crate::held::Held;
 
 /// Contacts that a sphere of the smallest class is taken to have (fcc packing).
 const CONTACTS: f64 = 12.0;
@@ -169,9 +169,9 @@ fn limit(stiff: f64, damp: f64, drag: f64, class: usize) -> Limit {
 /// What holds one sphere in a packing as it is.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Hold {
-    stiffness: Block,
-    damping: Block,
-    drag: Block,
+    stiffness: Held,
+    damping: Held,
+    drag: Held,
 }
 
 impl Hold {
@@ -196,7 +196,7 @@ impl Hold {
 
     /// Safety included.
     pub(crate) fn limit(&self, class: usize) -> Limit {
-        let [stiff, damp, drag] = [self.stiffness, self.damping, self.drag].map(Block::largest);
+        let [stiff, damp, drag] = [self.stiffness, self.damping, self.drag].map(Held::largest);
         limit(stiff, damp, drag, class)
     }
 }

@@ -12,9 +12,9 @@ const SWEEPS: usize = 30;
 /// The turn is scaled with the root of the inertia 0.4 m r², so that the mass matrix is m times
 /// one. A contact resists motion along its normal n with k_n, and its slip v_t + r ω × n with k_t.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Block([[f64; N]; N]);
+pub(crate) struct Held([[f64; N]; N]);
 
-impl Block {
+impl Held {
     /// Adds a contact: `normal` from this sphere outwards, coefficients along it and across it.
     pub(crate) fn add(&mut self, normal: DVec3, along: f64, across: f64) {
         let n = normal.to_array();
@@ -76,7 +76,7 @@ mod tests {
         // Along the normal k_n; across it 3.5 k_t, since a solid sphere turns as it slides.
         let normal = DVec3::new(2.0, -1.0, 2.0) / 3.0;
         for (along, across) in [(1.0, 0.0), (1.0, 0.2), (1.0, 0.8)] {
-            let mut block = Block::default();
+            let mut block = Held::default();
             block.add(normal, along, across);
             let expected = f64::max(along, 3.5 * across);
             assert!((block.largest() - expected).abs() < 1e-12, "{along} {across}");
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn six_contacts_of_a_cube_are_isotropic() {
         // 6 (k_n + 2 k_t)/3 for the place, 2.5 · 6 · 2 k_t/3 for the turn: uncoupled.
-        let mut block = Block::default();
+        let mut block = Held::default();
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
             for side in [axis, -axis] {
                 block.add(side, 1.0, 0.3);
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn it_is_the_largest_of_all_quotients() {
-        let mut block = Block::default();
+        let mut block = Held::default();
         for (k, axis) in [DVec3::X, DVec3::new(0.6, 0.8, 0.0), DVec3::new(0.0, -0.6, 0.8)]
             .into_iter()
             .enumerate()
