@@ -6,7 +6,7 @@ use pendular::{MeshWalls, SplitMethod, Wet};
 use pendular_capillary::AnyCapillary;
 use pendular_contact::{Dashpot, Linear};
 use pendular_dem_core::{
-    Boundary, Class, Contact, DVec3, Implicit, PairContact, PairTerm, Particle, Particles,
+    Boundary, Class, Contact, DVec3, Implicit, Impulse, PairContact, PairTerm, Particle, Particles,
     Settings, Simulation,
 };
 use pendular_lubrication::{
@@ -14,7 +14,9 @@ use pendular_lubrication::{
     TangentialModel,
 };
 use pendular_pair::{Bridge, Mate};
-use pendular_walls::{Part, Plane, Shape, Walls};
+use pendular_walls::{Harmonic, Motion, Part, Plane, Shape, Walls};
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::SeedableRng;
 
 use crate::rig;
 
@@ -288,5 +290,246 @@ fn a_sheared_pair_goes_where_a_thousand_times_finer_explicit_steps_take_it() {
         if viscosity > 5.0 {
             assert!(!(off.length() < 1e-5), "explicit drag is unstable here: {off}");
         }
+    }
+}
+
+/// Wet spheres of two sizes, a few micrometres apart, from a `height` m over a floor that shakes.
+fn bed(side: u32, viscosity: f64, tension: f64, height: f64) -> (Particles, Walls, Pairs) {
+    let classes = [1e-3, 1.25e-3].map(|r| Class::new(r, DENSITY, 0).unwrap());
+    let mut particles = Particles::new(classes.to_vec()).unwrap();
+    let mut random = Pcg64::seed_from_u64(5);
+    for k in 0..side.pow(3) {
+        let [i, j, k] = [k % side, k / side % side, k / side / side];
+        let at = DVec3::new(f64::from(i), f64::from(j), f64::from(k));
+        let mut jitter = || rig::uniform(&mut random, -5e-7, 5e-7);
+        let at = 2.252e-3 * at + DVec3::new(jitter(), jitter(), jitter() + height);
+        let class = ((i + j + k) % 2) as u16;
+        particles.push(class, at, DVec3::ZERO, DVec3::ZERO).unwrap();
+    }
+    let shake = Harmonic { amplitude: 3e-4 * DVec3::Z, frequency: 50.0, phase: 0.0 };
+    let plane = Shape::Plane(Plane::new(DVec3::ZERO, DVec3::Z, 1.0).unwrap());
+    let floor = Part::new("floor", plane).with_motion(Motion::harmonic(shake));
+    let walls = Walls::new(vec![floor]).unwrap();
+    let near = Gap::Roughness { length: 1e-6 }.into();
+    let laws = rig::viscous_laws(
+        AnyCapillary::Lambert,
+        Some(NormalModel::Pitois2000.with(near)),
+        Some(TangentialModel::Popov2010.with(near)),
+    );
+    let bodies = rig::bodies(&particles, Some(&walls));
+    let films = vec![1e-9; particles.len()];
+    let wet =
+        rig::wet(rig::liquid(tension, viscosity, 0.3), laws, bodies, films, SplitMethod::Half);
+    let rub = rig::Rub { stiffness: STIFFNESS, restitution: 0.6, friction: 0.3, rolling: 1e-5 };
+    let terms = (rig::contact(&classes, rub), wet);
+    (particles, walls, terms)
+}
+
+/// A sixtieth of the contact time of the smaller spheres of a bed.
+fn bed_step() -> f64 {
+    PI * (0.5 * Class::new(1e-3, DENSITY, 0).unwrap().mass() / STIFFNESS).sqrt() / 60.0
+}
+
+fn places<T: PairTerm>(simulation: &Scene<T>) -> Vec<DVec3> {
+    let mut all: Vec<Particle> = simulation.particles().iter().collect();
+    all.sort_by_key(|p| p.id);
+    all.iter().map(|p| p.position).collect()
+}
+
+fn rms(a: &[DVec3], b: &[DVec3]) -> f64 {
+    let sum: f64 = a.iter().zip(b).map(|(a, b)| (*a - *b).length_squared()).sum();
+    (sum / a.len() as f64).sqrt()
+}
+
+/// A shaken wet bed against explicit drag in steps 100 times as fine, where the explicit drag of the
+/// coarse step blows up.
+#[test]
+fn a_shaken_viscous_bed_goes_where_fine_explicit_steps_take_it() {
+    let (h, steps, finer) = (bed_step(), 2_000, 100_u32);
+    let loose = |h: f64| Settings { allow_unstable: true, ..Settings::new(h) };
+    let (particles, walls, terms) = bed(3, 10.0, 0.07, 1.245e-3);
+    let mut coarse = implicit(particles.clone(), walls, terms, Settings::new(h));
+    let before = places(&coarse);
+    coarse.advance(steps).unwrap();
+    let run = |h: f64, steps: u64| {
+        let (particles, walls, terms) = bed(3, 10.0, 0.07, 1.245e-3);
+        let mut fine = Scene::new(particles, terms, MeshWalls(walls), loose(h)).unwrap();
+        fine.advance(steps).map(|()| places(&fine))
+    };
+    let fine = run(h / f64::from(finer), steps * u64::from(finer)).unwrap();
+    let (off, moved) = (rms(&places(&coarse), &fine), rms(&before, &fine));
+    assert!(off < 1e-2 * moved, "{off:e} of {moved:e}");
+    let passes = coarse.passes();
+    assert_eq!((passes.steps, passes.at_most), (steps, 0), "{passes:?}");
+    let blown = run(h, steps);
+    let blown = blown.map(|at| rms(&at, &fine) / moved);
+    assert!(
+        !blown.as_ref().is_ok_and(|off| *off < 1.0),
+        "explicit drag holds here: {blown:?} {}",
+        off / moved
+    );
+}
+
+/// Whatever the velocities become between two steps, drags only take energy: what was remembered
+/// of the last step is scaled down to what brakes.
+#[test]
+fn remembered_impulses_never_drive() {
+    for viscosity in [0.1, 10.0, 1000.0] {
+        let (particles, walls, (_, wet)) = bed(4, viscosity, 1e-15, 0.1);
+        let rub = rig::Rub { stiffness: 1e-9, restitution: 1.0, friction: 0.0, rolling: 0.0 };
+        let free = move |p: &Particles, wet| (rig::contact(p.classes(), rub), wet);
+        let settings = rig::weightless(1e-6);
+        let terms = free(&particles, wet);
+        let mut simulation = implicit(particles, walls, terms, settings);
+        simulation.advance(1).unwrap();
+        let mut random = Pcg64::seed_from_u64(9);
+        let mut braked = 0.0;
+        for round in 0..60 {
+            let mut snapshot = simulation.snapshot();
+            for p in &mut snapshot.particles {
+                let mut any = |s: f64| rig::uniform(&mut random, -s, s);
+                p.velocity = DVec3::new(any(0.01), any(0.01), any(0.01));
+                p.spin = DVec3::new(any(10.0), any(10.0), any(10.0));
+            }
+            let fresh = |impulse| Impulse { charged: f64::INFINITY, ..impulse };
+            let state = simulation.term().inner().1.state();
+            let (particles, walls, (_, mut wet)) = bed(4, viscosity, 1e-15, 0.1);
+            wet.resume(state).unwrap();
+            let hold = |hold: pendular::Hold| wet.column(hold.bridge()).unwrap();
+            let snapshot = snapshot
+                .map(|((spring, bridge), impulse)| ((spring, hold(bridge)), fresh(impulse)));
+            let terms = Implicit::new(free(&particles, wet));
+            let walls = MeshWalls(walls);
+            simulation = Simulation::restore(particles, terms, walls, settings, snapshot).unwrap();
+            let mut energy = simulation.particles().kinetic_energy();
+            for _ in 0..3 {
+                simulation.advance(1).unwrap();
+                let now = simulation.particles().kinetic_energy();
+                assert!(now <= energy * (1.0 + 1e-12), "η {viscosity} {round}: {energy} {now}");
+                braked += 1.0 - now / energy;
+                energy = now;
+            }
+        }
+        assert!(braked > 1.0, "{braked}");
+    }
+}
+
+#[test]
+fn threads_and_skins_do_not_change_a_bit_of_implicit_drags() {
+    let run = |settings: Settings| {
+        let (particles, walls, terms) = bed(13, 5.0, 0.07, 1.245e-3);
+        let mut simulation = implicit(particles, walls, terms, settings);
+        simulation.advance(400).unwrap();
+        assert!(simulation.term().inner().1.alive() > 3_000);
+        rig::bits(&simulation)
+    };
+    let h = bed_step();
+    let one = run(Settings::new(h));
+    for threads in [2, 3] {
+        assert!(one == run(Settings { threads, ..Settings::new(h) }), "{threads} threads");
+    }
+    let (skin, inner_skin) = (Some(4e-4), Some(1e-5));
+    assert!(one == run(Settings { skin, inner_skin, ..Settings::new(h) }), "skins");
+}
+
+/// A run that is stopped and goes on ends with the same bits.
+#[test]
+fn a_snapshot_holds_the_impulses() {
+    let h = bed_step();
+    let (particles, walls, terms) = bed(4, 20.0, 0.07, 1.245e-3);
+    let mut simulation = implicit(particles, walls, terms, Settings::new(h));
+    simulation.advance(500).unwrap();
+    let (state, snapshot) = (simulation.term().inner().1.state(), simulation.snapshot());
+    let (particles, walls, (contact, mut wet)) = bed(4, 20.0, 0.07, 1.245e-3);
+    wet.resume(state).unwrap();
+    let hold = |hold: pendular::Hold| wet.column(hold.bridge()).unwrap();
+    let snapshot = snapshot.map(|((spring, bridge), impulse)| ((spring, hold(bridge)), impulse));
+    let terms = Implicit::new((contact, wet));
+    let walls = MeshWalls(walls);
+    let mut again =
+        Simulation::restore(particles, terms, walls, Settings::new(h), snapshot).unwrap();
+    simulation.advance(500).unwrap();
+    again.advance(500).unwrap();
+    assert!(rig::bits(&simulation) == rig::bits(&again));
+}
+
+/// A POM sphere rolls to rest in the time that its rolling friction says, and stays there.
+#[test]
+fn a_rolling_sphere_comes_to_rest_in_time_and_without_creep() {
+    let (r, speed, rolling) = (2.5e-3, 0.05, 5.97e-5);
+    let class = Class::new(r, 1358.0, 0).unwrap();
+    let mut particles = Particles::new(vec![class]).unwrap();
+    let sag = class.mass() * G / 1e5;
+    let (at, v) = ((r - sag) * DVec3::Z, speed * DVec3::X);
+    particles.push(0, at, v, speed / r * DVec3::Y).unwrap();
+    let wet = film(&particles, &floor(), 1e-3, vec![0.0]);
+    // A fifth of the critical damping across, or the spring there would swing for ever.
+    let tangential_damping = 0.4 * (2.0 / 7.0 * 1e5 * 2.0 / 7.0 * class.mass()).sqrt();
+    let normal = Linear::from_restitution(1e5, 0.8, class.mass()).unwrap();
+    let normal = normal.with_tangential_ratio(2.0 / 7.0).unwrap();
+    let rub = PairContact { normal, friction: 0.35, rolling_friction: rolling, tangential_damping };
+    let contact = || Contact::new(&[class], 1, move |_, _| rub, move |_, _| rub);
+    let terms = (contact(), wet);
+    let h = PI * (class.mass() / 1e5).sqrt() / 50.0;
+    let mut simulation = implicit(particles, floor(), terms, Settings::new(h));
+    // Rolling without sliding: 7/5 m v' = −μ m g/r.
+    let stop = speed / (rolling * G / (1.4 * r));
+    simulation.advance((0.98 * stop / h) as u64).unwrap();
+    let now = rig::at(&simulation, 0).velocity.x;
+    assert!((now / (0.02 * speed) - 1.0).abs() < 0.03, "{now:e}");
+    simulation.advance((0.04 * stop / h) as u64).unwrap();
+    let rest = rig::at(&simulation, 0);
+    assert!(rest.spin.length() * r < 1e-12, "{:e}", rest.spin.length());
+    assert!(rest.velocity.x.abs() < 1e-9, "{:e}", rest.velocity.x);
+    simulation.advance(20_000).unwrap();
+    let crept = (rig::at(&simulation, 0).position.x - rest.position.x) / (20_000.0 * h);
+    assert!(crept.abs() < 1e-9, "{crept:e} m/s");
+    // On half the critical slope, tilted gravity, it does not creep.
+    let slope = 0.5 * rolling / r;
+    let tilted = G * DVec3::new(slope, 0.0, -1.0).normalize();
+    let mut particles = Particles::new(vec![class]).unwrap();
+    particles.push(0, at, DVec3::ZERO, DVec3::ZERO).unwrap();
+    let wet = film(&particles, &floor(), 1e-3, vec![0.0]);
+    let settings = Settings { gravity: tilted, ..Settings::new(h) };
+    let terms = (contact(), wet);
+    let mut simulation = implicit(particles, floor(), terms, settings);
+    simulation.advance(20_000).unwrap();
+    let start = rig::at(&simulation, 0).position.x;
+    simulation.advance(20_000).unwrap();
+    let crept = (rig::at(&simulation, 0).position.x - start) / (20_000.0 * h);
+    assert!(crept.abs() < 1e-9, "{crept:e} m/s");
+}
+
+/// Two spheres that their bridge holds together turn about each other as one body: whatever the
+/// viscosity, nothing brakes that.
+#[test]
+fn a_pair_that_turns_as_one_body_keeps_its_energy() {
+    for viscosity in [1.0, 100.0] {
+        let spin = 20.0 * DVec3::Z;
+        let class = sphere();
+        let mut particles = Particles::new(vec![class]).unwrap();
+        let half = (R - 2e-8) * DVec3::X;
+        particles.push(0, -half, spin.cross(-half), spin).unwrap();
+        particles.push(0, half, spin.cross(half), spin).unwrap();
+        let near = Gap::Roughness { length: ROUGHNESS }.into();
+        let laws = rig::viscous_laws(
+            AnyCapillary::Lambert,
+            Some(NormalModel::Pitois2000.with(near)),
+            Some(TangentialModel::JeffreyOnishi1984.with(near)),
+        );
+        let bodies = rig::bodies(&particles, Some(&far()));
+        let films = rig::films_for(1e-10, [R; 2]);
+        let liquid = rig::liquid(0.07, viscosity, 0.3);
+        let wet = rig::wet(liquid, laws, bodies, films, SplitMethod::Half);
+        let rub = rig::Rub { stiffness: 1e4, restitution: 0.6, friction: 0.3, rolling: 1e-5 };
+        let terms = (rig::contact(&[class], rub), wet);
+        let mut simulation = implicit(particles, far(), terms, rig::weightless(step()));
+        simulation.advance(100).unwrap();
+        let before = simulation.particles().kinetic_energy();
+        let turn = (1.0 / spin.z / step()) as u64;
+        simulation.advance(turn).unwrap();
+        let now = simulation.particles().kinetic_energy();
+        assert!((now / before - 1.0).abs() < 1e-5, "η {viscosity}: {}", now / before - 1.0);
+        assert_eq!(simulation.term().inner().1.alive(), 1);
     }
 }

@@ -12,7 +12,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("pendular-capillary", &["pendular-lane", "pendular-pair"]),
     ("pendular-lubrication", &["pendular-lane", "pendular-pair"]),
     ("pendular-transfer", &["pendular-pair", "pendular-capillary"]),
-    ("pendular-contact", &[]),
+    ("pendular-contact", &["pendular-lane"]),
     ("pendular-walls", &[]),
     ("pendular-dem-core", &["pendular-contact", "pendular-lane"]),
     (

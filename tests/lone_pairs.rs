@@ -29,7 +29,7 @@ impl<T: PairTerm> PairTerm for LonePairs<T> {
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
-        assert_eq!(L::WIDTH, 1, "four at a time was not asked for");
+        assert_eq!(L::WIDTH, 1, "several at a time was not asked for");
         let each = L::each(|k| self.0.load(&pairs.pair(k), columns.column(k)));
         Loads::pack(pairs.permit, &each)
     }

@@ -98,8 +98,8 @@ impl ForceCurve for Lambert2008Curve {
     #[inline(always)]
     fn forces<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
         let permit = gap.permit();
-        let contact = L::pack(permit, curves, |curve| curve.contact);
-        let a_squared = L::pack(permit, curves, |curve| curve.a_squared);
+        let [contact, a_squared, ..] =
+            L::rows(permit, curves, |curve| [curve.contact, curve.a_squared, 0.0, 0.0]);
         let gap = gap.most(L::splat(permit, 0.0));
         let reach = (gap * gap + a_squared).sqrt();
         contact * (a_squared / (reach * (reach + gap)))

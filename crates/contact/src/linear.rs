@@ -1,3 +1,5 @@
+use pendular_lane::Lane;
+
 use crate::damping::{cut_duration, damping_ratio, restitution};
 use crate::error::{positive, within};
 use crate::material::{DEFAULT_RATIO, checked_ratio};
@@ -26,11 +28,14 @@ use crate::{ContactError, Dashpot, NormalContact};
 /// Cundall & Strack (1979), Géotechnique 29, 47; for the end of the contact Schwager & Pöschel
 /// (2007), Granul. Matter 9, 465.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)] // the first four are read at once
 pub struct Linear {
     stiffness: f64,
     damping: f64,
     tangential_stiffness: f64,
-    dashpot: Dashpot,
+    /// The least force, N: 0 or no limit.
+    least: f64,
+    tangential_softness: f64,
 }
 
 impl Linear {
@@ -42,8 +47,10 @@ impl Linear {
     pub fn new(stiffness: f64, damping: f64) -> Result<Self, ContactError> {
         positive("stiffness", stiffness)?;
         within("damping", damping, (0.0, f64::MAX))?;
-        let tangential_stiffness = DEFAULT_RATIO * stiffness;
-        Ok(Self { stiffness, damping, tangential_stiffness, dashpot: Dashpot::PushesOnly })
+        let (tangential_stiffness, tangential_softness) = (0.0, 0.0);
+        let law =
+            Self { stiffness, damping, tangential_stiffness, least: 0.0, tangential_softness };
+        law.with_tangential_ratio(DEFAULT_RATIO)
     }
 
     /// A contact that pushes only and rebounds with `restitution` e at every speed, for bodies of
@@ -77,7 +84,7 @@ impl Linear {
         positive("reduced mass", reduced_mass)?;
         let zeta = damping_ratio(restitution, dashpot)?;
         let damping = 2.0 * zeta * stiffness.sqrt() * reduced_mass.sqrt();
-        Ok(Self { dashpot, ..Self::new(stiffness, damping)? })
+        Ok(Self::new(stiffness, damping)?.with_dashpot(dashpot))
     }
 
     /// The same contact with k_t = `ratio` k_n; 0 for none.
@@ -85,13 +92,24 @@ impl Linear {
     /// # Errors
     /// [`ContactError`] unless the ratio is finite and not negative.
     pub fn with_tangential_ratio(self, ratio: f64) -> Result<Self, ContactError> {
-        Ok(Self { tangential_stiffness: checked_ratio(ratio)? * self.stiffness, ..self })
+        let tangential_stiffness = checked_ratio(ratio)? * self.stiffness;
+        let tangential_softness =
+            if tangential_stiffness > 0.0 { 1.0 / tangential_stiffness } else { 0.0 };
+        Ok(Self { tangential_stiffness, tangential_softness, ..self })
     }
 
     /// The same spring and dashpot with another treatment of separation; the rebound changes.
     #[must_use]
     pub fn with_dashpot(self, dashpot: Dashpot) -> Self {
-        Self { dashpot, ..self }
+        let least = match dashpot {
+            Dashpot::PushesOnly => 0.0,
+            Dashpot::MayPull => f64::NEG_INFINITY,
+        };
+        Self { least, ..self }
+    }
+
+    fn dashpot(&self) -> Dashpot {
+        if self.least == 0.0 { Dashpot::PushesOnly } else { Dashpot::MayPull }
     }
 
     /// The restitution of bodies of `reduced_mass` m* (kg), from the exact solution.
@@ -99,7 +117,7 @@ impl Linear {
     /// # Errors
     /// [`ContactError`] unless the mass is positive and finite.
     pub fn restitution(&self, reduced_mass: f64) -> Result<f64, ContactError> {
-        restitution(self.damping_ratio(reduced_mass)?, self.dashpot)
+        restitution(self.damping_ratio(reduced_mass)?, self.dashpot())
     }
 
     /// Duration of a collision of bodies of `reduced_mass` m* (kg), s.
@@ -112,7 +130,7 @@ impl Linear {
     /// [`ContactError`] unless the mass is positive and finite.
     pub fn contact_time(&self, reduced_mass: f64) -> Result<f64, ContactError> {
         let zeta = self.damping_ratio(reduced_mass)?;
-        let phase = match self.dashpot {
+        let phase = match self.dashpot() {
             Dashpot::PushesOnly => cut_duration(zeta),
             Dashpot::MayPull if zeta >= 1.0 => f64::INFINITY,
             Dashpot::MayPull => std::f64::consts::PI / ((1.0 - zeta) * (1.0 + zeta)).sqrt(),
@@ -129,10 +147,9 @@ impl Linear {
 impl NormalContact for Linear {
     type Memory = ();
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, overlap: f64, approach_speed: f64, (): &mut ()) -> f64 {
-        let force = self.stiffness * overlap + self.damping * approach_speed;
-        if self.dashpot == Dashpot::PushesOnly { force.max(0.0) } else { force }
+        Self::side_by_side::<f64>(&[self], overlap, approach_speed, &mut [()])[0]
     }
 
     #[inline]
@@ -145,6 +162,27 @@ impl NormalContact for Linear {
         self.tangential_stiffness
     }
 
+    #[inline(always)]
+    fn tangential_softness(&self, _: f64) -> f64 {
+        self.tangential_softness
+    }
+
+    #[inline(always)]
+    fn side_by_side<L: Lane>(
+        laws: &L::Each<&Self>,
+        overlap: L,
+        approach_speed: L,
+        _: &mut L::Each<()>,
+    ) -> [L; 3] {
+        let permit = overlap.permit();
+        let [stiffness, damping, tangential, least] = L::rows(permit, laws, |law| {
+            [law.stiffness, law.damping, law.tangential_stiffness, law.least]
+        });
+        let softness = L::pack(permit, laws, |law| law.tangential_softness);
+        let force = (stiffness * overlap + damping * approach_speed).most(least);
+        [force, tangential, softness]
+    }
+
     #[inline]
     fn damping(&self, _: f64) -> f64 {
         self.damping
@@ -152,60 +190,10 @@ impl NormalContact for Linear {
 
     #[inline]
     fn may_pull(&self) -> bool {
-        self.dashpot == Dashpot::MayPull
+        self.dashpot() == Dashpot::MayPull
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pulls_only_when_allowed() {
-        let law = Linear::new(1e4, 2.0).unwrap();
-        // 1e4 · 1e-5 − 2 · 0.1 = −0.1 N
-        assert_eq!(law.force(1e-5, -0.1, &mut ()), 0.0);
-        let pulling = law.with_dashpot(Dashpot::MayPull).force(1e-5, -0.1, &mut ());
-        assert!((pulling + 0.1).abs() < 1e-15);
-    }
-
-    #[test]
-    fn the_shear_cell_of_gladkyy_and_schwarze() {
-        // r = 2.381 mm, ρ = 150 kg/m³, e = 0.83: k_n = 144.03 N/m, c_n = 2.92e-3 N s/m,
-        // t_c = 5.4e-4 s (Gladkyy & Schwarze 2014, section 4.1)
-        let mass = 4.0 / 3.0 * std::f64::consts::PI * 2.381e-3_f64.powi(3) * 150.0;
-        let may_pull = Dashpot::MayPull;
-        let law = Linear::from_restitution_with(144.03, 0.83, 0.5 * mass, may_pull).unwrap();
-        assert!((law.contact_time(0.5 * mass).unwrap() / 5.4e-4 - 1.0).abs() < 1e-4);
-        assert!((law.damping(0.0) / 2.92e-3 - 1.0).abs() < 5e-3);
-    }
-
-    #[test]
-    fn tangential_stiffness_is_a_share_of_the_normal_one() {
-        let law = Linear::new(1e5, 0.0).unwrap();
-        // ν = 0.3: 0.7/0.85
-        assert!((law.tangential_stiffness(1.0) / 1e5 - 0.823_529_411_76).abs() < 1e-10);
-        let sheared = law.with_tangential_ratio(2.0 / 7.0).unwrap();
-        assert!((sheared.tangential_stiffness(1.0) - 2e5 / 7.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn elastic_contact_time() {
-        let law = Linear::from_restitution(1e5, 1.0, 4e-5).unwrap();
-        let half_period = std::f64::consts::PI * (4e-5_f64 / 1e5).sqrt();
-        assert!((law.contact_time(4e-5).unwrap() / half_period - 1.0).abs() < 1e-12);
-        assert!(law.damping(0.0) < 1e-12);
-    }
-
-    #[test]
-    fn bad_parameters_are_named() {
-        let bad = |k, e, m| Linear::from_restitution(k, e, m).unwrap_err().quantity;
-        assert_eq!(bad(0.0, 0.5, 1.0), "stiffness");
-        assert_eq!(bad(f64::NAN, 0.5, 1.0), "stiffness");
-        assert_eq!(bad(1.0, 0.0, 1.0), "restitution");
-        assert_eq!(bad(1.0, 1.5, 1.0), "restitution");
-        assert_eq!(bad(1.0, 0.5, f64::INFINITY), "reduced mass");
-        assert!(Linear::new(1.0, 1.0).unwrap().with_tangential_ratio(-1.0).is_err());
-        assert_eq!(Linear::new(1.0, -1.0).unwrap_err().quantity, "damping");
-    }
-}
+#[path = "linear_tests.rs"]
+mod tests;

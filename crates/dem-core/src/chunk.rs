@@ -5,16 +5,18 @@ use std::time::Duration;
 
 use glam::DVec3;
 
-use crate::implicit::Link;
+use crate::implicit::Links;
 use crate::lists::PairList;
-use crate::pass::View;
+use crate::particles::Row;
+use crate::view::View;
 use crate::{Encounter, Touch, wall_pass};
 
 /// Force and torque on one particle.
 #[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
 pub(crate) struct Sum {
-    pub(crate) force: DVec3,
-    pub(crate) torque: DVec3,
+    pub(crate) force: Row,
+    pub(crate) torque: Row,
 }
 
 /// What rolling friction needs of one particle: in a read the braking torque and the number of
@@ -34,6 +36,10 @@ pub(crate) struct Memory<C> {
     pub(crate) column: C,
 }
 
+/// The touches of a particle with a wall part. Nearly always one: it lies in the list, so that no
+/// step goes to look for it elsewhere.
+pub(crate) type Memories<C> = smallvec::SmallVec<[Memory<C>; 1]>;
+
 /// A particle near a wall part.
 #[derive(Debug, Clone)]
 pub(crate) struct WallPair<C> {
@@ -41,7 +47,7 @@ pub(crate) struct WallPair<C> {
     pub(crate) part: u32,
     /// Where the candidates lie in the chunk's pool.
     pub(crate) candidates: Range<usize>,
-    pub(crate) memories: Vec<Memory<C>>,
+    pub(crate) memories: Memories<C>,
 }
 
 /// Which list an entry stands in.
@@ -73,11 +79,11 @@ pub(crate) struct Chunk<C> {
     /// Scratch: the places of those pairs of a list that act and do not touch.
     pub(crate) apart: Vec<u32>,
     pub(crate) touches: Vec<Touch>,
-    pub(crate) memories: Vec<Memory<C>>,
+    pub(crate) memories: Memories<C>,
     /// Pairs that resist, to be solved for: inside and with walls, and across the border where the
     /// first particle is the chunk's own. Empty unless the term is implicit.
-    pub(crate) links: Vec<Link>,
-    pub(crate) links_across: Vec<Link>,
+    pub(crate) links: Links,
+    pub(crate) links_across: Links,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -98,9 +104,9 @@ impl<C: Copy + Default> Chunk<C> {
             notes: Vec::new(),
             apart: Vec::new(),
             touches: Vec::new(),
-            memories: Vec::new(),
-            links: Vec::new(),
-            links_across: Vec::new(),
+            memories: Memories::new(),
+            links: Links::default(),
+            links_across: Links::default(),
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,
@@ -111,6 +117,8 @@ impl<C: Copy + Default> Chunk<C> {
         self.sums.fill(Sum::default());
         self.rolls.fill(Roll::default());
         self.notes.clear();
+        self.links.met.clear();
+        self.links_across.met.clear();
     }
 
     /// Who meets in the pair that a note is about, as it was read.

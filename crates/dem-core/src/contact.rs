@@ -71,6 +71,13 @@ enum Partner {
     Wall(u8),
 }
 
+fn partner(encounter: &Encounter, second: u16) -> Partner {
+    match encounter.second {
+        crate::Partner::Particle(_) => Partner::Class(second),
+        crate::Partner::Wall(_) => Partner::Wall(second as u8),
+    }
+}
+
 enum Table<N> {
     Dense(Vec<PairContact<N>>),
     OnDemand(Rule<N>),
@@ -161,11 +168,7 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
 
     #[inline]
     fn law_of(&self, pair: &Pair) -> PairContact<N> {
-        let second = match pair.encounter.second {
-            crate::Partner::Particle(_) => Partner::Class(pair.second_class),
-            crate::Partner::Wall(_) => Partner::Wall(pair.second_class as u8),
-        };
-        self.law(pair.first_class, second)
+        self.law(pair.first_class, partner(&pair.encounter, pair.second_class))
     }
 
     /// What acts in a contact, part by part: for budgets and reports, not for the step.
@@ -179,7 +182,8 @@ impl<N: NormalContact + Send + Sync + 'static> Contact<N> {
             return ContactForces::default();
         }
         let law = self.law_of(pair);
-        let load = self.load(pair, &mut column);
+        let all = Acting { rolls: self.rolls, dashpot: true };
+        let load = act((), [&law], all, &Geometry::of(pair), &mut &mut column).single();
         let elastic = law.normal.force(overlap, 0.0, &mut spring.memory.clone());
         let slides = load.shear.length() >= (1.0 - 1e-9) * law.friction * load.tension.abs();
         let dashpot = law.tangential_damping * pair.slip.length_squared();
@@ -245,6 +249,7 @@ where
 
     const SETTLES: bool = false;
     const LANES: bool = true;
+    const ACTS_IN_OVERLAP: bool = true;
     const COUPLES: bool = false;
 
     #[inline(always)]
@@ -294,12 +299,19 @@ where
         self.resists = false;
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, _: f64) -> Resist {
-        let overlap = -pair.encounter.gap;
+    #[inline(always)]
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        [first, second]: [u16; 2],
+        column: &Self::Column,
+        _: f64,
+    ) -> Resist {
+        let overlap = -encounter.gap;
         if overlap <= 0.0 {
             return Resist::default();
         }
-        let law = self.law_of(pair);
+        let law = self.law(first, partner(encounter, second));
         let repulsion = law.normal.force(overlap, 0.0, &mut column.memory.clone()).max(0.0);
         Resist {
             dashpot: law.normal.damping(overlap),
@@ -349,19 +361,22 @@ fn act<L: Lane, N: NormalContact>(
     pairs: &Geometry<L>,
     columns: &mut impl Columns<Spring<N::Memory>>,
 ) -> Loads<L> {
-    let speeds = if acting.dashpot { pairs.separation_speed } else { L::splat(permit, 0.0) };
-    let (gaps, speeds) = (pairs.gap.unpack(), speeds.unpack());
-    let mut springs = L::each(|k| *columns.column(k));
-    let forces =
-        L::each(|k| repulsion(&laws[k].normal, gaps[k], speeds[k], &mut springs[k].memory));
+    let approach = if acting.dashpot { -pairs.separation_speed } else { L::splat(permit, 0.0) };
+    let springs = L::each(|k| *columns.column(k));
+    let normal = L::each(|k| &laws[k].normal);
+    let mut memories = L::each(|k| springs[k].memory);
+    let [repulsion, stiffness, softness] =
+        N::side_by_side(&normal, -pairs.gap, approach, &mut memories);
     let zero = L::splat(permit, 0.0);
-    let repulsion = pairs.gap.if_less(zero, L::pack(permit, &forces, |f| *f), zero);
-    let stretch = Vector::<L>::pack(permit, &springs, |s| s.stretch);
-    let (shear, stretch) = tangential(&laws, pairs, repulsion, stretch);
-    let stretch = stretch.unpack();
+    let repulsion = pairs.gap.if_less(zero, repulsion, zero);
+    let [x, y, z, _] = L::rows(permit, &springs, |s| [s.stretch.x, s.stretch.y, s.stretch.z, 0.0]);
+    let elastic = [stiffness, softness];
+    let (shear, stretch) = tangential(&laws, pairs, repulsion, elastic, Vector { x, y, z });
+    let stretch = stretch.rows(permit);
     for k in 0..L::WIDTH {
-        springs[k].stretch = stretch[k];
-        *columns.column(k) = springs[k];
+        let [x, y, z, _] = stretch[k];
+        let memory = memories[k];
+        *columns.column(k) = Spring { stretch: DVec3 { x, y, z }, memory };
     }
     let rolling = if acting.rolls {
         rolling(L::pack(permit, &laws, |law| law.rolling_friction) * repulsion.most(zero), pairs)
@@ -369,21 +384,6 @@ fn act<L: Lane, N: NormalContact>(
         Vector::zero(permit)
     };
     Loads { tension: -repulsion, shear, rolling, ..Loads::none(permit) }
-}
-
-/// The normal law's force; whatever where the bodies do not touch.
-#[inline(always)]
-fn repulsion<N: NormalContact>(
-    law: &N,
-    gap: f64,
-    separation_speed: f64,
-    memory: &mut N::Memory,
-) -> f64 {
-    // A law without memory may be asked anything: that saves a branch.
-    if size_of::<N::Memory>() > 0 && gap >= 0.0 {
-        return 0.0;
-    }
-    law.force(-gap, -separation_speed, memory)
 }
 
 /// F_t = −k_t ξ − γ_t u, at most μ |F_n|; ξ follows the slip and the turning contact plane.
@@ -394,13 +394,11 @@ fn tangential<L: Lane, N: NormalContact>(
     laws: &L::Each<&PairContact<N>>,
     pairs: &Geometry<L>,
     repulsion: L,
+    [stiffness, softness]: [L; 2],
     stretch: Vector<L>,
 ) -> (Vector<L>, Vector<L>) {
     let permit = pairs.gap.permit();
     let (half, normal, slip) = (pairs.half_step_normal, pairs.normal, pairs.slip);
-    let gaps = pairs.gap.unpack();
-    let stiffness = L::each(|k| laws[k].normal.tangential_stiffness(-gaps[k]));
-    let stiffness = L::pack(permit, &stiffness, |k| *k);
     let before = stretch - half * stretch.dot(half) + slip * L::splat(permit, pairs.time_step);
     let now = before - normal * before.dot(normal);
     let dashpot = slip * L::pack(permit, laws, |law| law.tangential_damping);
@@ -410,7 +408,6 @@ fn tangential<L: Lane, N: NormalContact>(
     // No force at all gives 0/0 or a huge number: both are no sliding.
     let share = limit / trial.dot(trial).sqrt();
     let force = trial * share.least(one);
-    let softness = zero.if_less(stiffness, one / stiffness, zero);
     let slid = -((force + dashpot) * softness);
     let stretch = Vector::if_less(share, one, slid, now);
     let none = Vector::zero(permit);

@@ -163,11 +163,18 @@ mod tests {
         (found, seen)
     }
 
+    /// With `--nocapture` it also says how long building the grids and the search took.
     #[test]
     fn size_classes_find_the_same_pairs_among_ten_times_fewer_candidates() {
         let (places, reach) = (mixture(), 0.02);
-        let plain = pairs(&places, &Grids::with_levels(&places, reach, 1), reach);
-        let sized = pairs(&places, &Grids::new(&places, reach), reach);
+        let timed = |levels: fn(&[Place], f64) -> Grids| {
+            let start = std::time::Instant::now();
+            let found = pairs(&places, &levels(&places, reach), reach);
+            (found, start.elapsed())
+        };
+        let (plain, plain_time) = timed(|places, reach| Grids::with_levels(places, reach, 1));
+        let (sized, sized_time) = timed(Grids::new);
+        println!("one plain grid {plain_time:?}, size classes {sized_time:?}");
         assert!(plain.0 == sized.0);
         assert!(plain.0.len() > places.len() + 10_000, "pairs besides each with itself");
         assert!(plain.1 > 10 * sized.1, "{} against {}", plain.1, sized.1);

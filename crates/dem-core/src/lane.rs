@@ -3,7 +3,40 @@
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 use glam::DVec3;
+#[cfg(target_arch = "x86_64")]
+use pendular_lane::{Avx, Avx512};
 pub use pendular_lane::{Four, Lane};
+
+/// Work on numbers side by side.
+pub(crate) trait Kernel: Sized {
+    /// Does it; inlined, so that it may use whatever registers the lanes stand for.
+    fn run<L: Lane>(self, permit: L::Permit);
+}
+
+/// Does work in the widest registers that this machine has; the same operations, the same bits.
+pub(crate) fn in_widest(kernel: impl Kernel) {
+    match pulp::Arch::new() {
+        #[cfg(target_arch = "x86_64")]
+        pulp::Arch::V4(permit) => permit.vectorize(With::<_, Avx512> { kernel, permit }),
+        #[cfg(target_arch = "x86_64")]
+        pulp::Arch::V3(permit) => permit.vectorize(With::<_, Avx> { kernel, permit }),
+        arch => arch.dispatch(With::<_, Four> { kernel, permit: () }),
+    }
+}
+
+struct With<K, L: Lane> {
+    kernel: K,
+    permit: L::Permit,
+}
+
+impl<K: Kernel, L: Lane> pulp::NullaryFnOnce for With<K, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.kernel.run::<L>(self.permit);
+    }
+}
 
 /// A vector, or several side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +73,12 @@ impl<L: Lane> Vector<L> {
     pub fn unpack(self) -> L::Each<DVec3> {
         let (x, y, z) = (self.x.unpack(), self.y.unpack(), self.z.unpack());
         L::each(|k| DVec3::new(x[k], y[k], z[k]))
+    }
+
+    /// The vectors, a zero behind each.
+    #[inline(always)]
+    pub(crate) fn rows(self, permit: L::Permit) -> L::Each<[f64; 4]> {
+        L::unpack_rows([self.x, self.y, self.z, L::splat(permit, 0.0)])
     }
 
     /// Scalar product.

@@ -28,6 +28,7 @@
 //! 310, 109524. Limits of the step in packings: O'Sullivan & Bray (2004), Eng. Comput. 21, 278;
 //! Otsubo, O'Sullivan & Shire (2017), Comput. Geotech. 86, 67.
 
+mod block;
 mod boundary;
 mod chunk;
 mod contact;
@@ -47,6 +48,7 @@ mod pass;
 mod profile;
 mod simulation;
 mod term;
+mod view;
 mod wall_pass;
 
 pub use boundary::{Boundary, NoWalls, Touch};

@@ -29,6 +29,15 @@ pub struct Load {
     pub tangential_drag: f64,
 }
 
+impl Load {
+    /// What is left of it where dashpots and drags are solved for at the end of the step
+    /// ([`crate::Implicit`]): they limit nothing then.
+    #[must_use]
+    pub fn resisted_implicitly(self) -> Self {
+        Self { normal_damping: 0.0, normal_drag: 0.0, tangential_drag: 0.0, ..self }
+    }
+}
+
 impl std::ops::Add for Load {
     type Output = Self;
 

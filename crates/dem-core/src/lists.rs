@@ -76,6 +76,9 @@ impl<C: Copy + Default> PairList<C> {
             self.active.push(entry);
             self.columns.push(c);
         }
+        // The first time there was nothing to go by, and they grew by doubling.
+        self.active.shrink_to(self.active.len() / 4 * 5 + 8);
+        self.columns.shrink_to(self.columns.len() / 4 * 5 + 8);
     }
 }
 

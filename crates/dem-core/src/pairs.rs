@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::lane::{Lane, Vector};
 use crate::lists::Entry;
-use crate::pass::View;
+use crate::view::View;
 use crate::{Encounter, Load, Pair};
 
 /// What a [`Pair`] says of place and motion, of one pair or several side by side.
@@ -32,6 +32,27 @@ pub struct Geometry<L> {
     pub levers: [L; 2],
     /// Time step, s.
     pub time_step: f64,
+}
+
+impl<L: Lane> Geometry<L> {
+    /// Nowhere.
+    #[inline(always)]
+    pub(crate) fn none(permit: L::Permit) -> Self {
+        let (none, zero) = (L::splat(permit, 0.0), Vector::zero(permit));
+        Self {
+            gap: none,
+            radii: [none; 2],
+            normal: zero,
+            half_step_normal: zero,
+            separation_speed: none,
+            slip: zero,
+            spin: zero,
+            expected_spin: zero,
+            rolling_inertia: none,
+            levers: [none; 2],
+            time_step: 0.0,
+        }
+    }
 }
 
 impl Geometry<f64> {

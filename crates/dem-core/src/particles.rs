@@ -67,12 +67,60 @@ pub(crate) struct Place {
     pub(crate) r: f64,
 }
 
+impl Place {
+    #[inline(always)]
+    pub(crate) fn row(&self) -> [f64; 4] {
+        [self.x.x, self.x.y, self.x.z, self.r]
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, [x, y, z, r]: [f64; 4]) {
+        *self = Self { x: DVec3 { x, y, z }, r };
+    }
+}
+
 /// Velocity and spin, half a step behind the positions.
 #[derive(Debug, Clone, Copy)]
-#[repr(C, align(16))]
+#[repr(align(64))] // one cache line
 pub(crate) struct Velocity {
-    pub(crate) v: DVec3,
-    pub(crate) w: DVec3,
+    pub(crate) v: Row,
+    pub(crate) w: Row,
+}
+
+impl Velocity {
+    pub(crate) fn new(v: DVec3, w: DVec3) -> Self {
+        Self { v: Row::new(v), w: Row::new(w) }
+    }
+}
+
+/// A vector and a zero behind it, which make one register or half of one.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(32))]
+pub(crate) struct Row(pub(crate) [f64; 4]);
+
+impl Row {
+    #[inline(always)]
+    pub(crate) fn new(v: DVec3) -> Self {
+        Self([v.x, v.y, v.z, 0.0])
+    }
+
+    #[inline(always)]
+    pub(crate) fn vector(&self) -> DVec3 {
+        let [x, y, z, _] = self.0;
+        DVec3 { x, y, z }
+    }
+
+    #[inline(always)]
+    pub(crate) fn add(&mut self, other: [f64; 4]) {
+        let [a, b, c, d] = &mut self.0;
+        (*a, *b, *c, *d) = (*a + other[0], *b + other[1], *c + other[2], *d + other[3]);
+    }
+
+    #[inline(always)]
+    pub(crate) fn take(&mut self, other: [f64; 4]) {
+        let [a, b, c, d] = &mut self.0;
+        (*a, *b, *c, *d) = (*a - other[0], *b - other[1], *c - other[2], *d - other[3]);
+    }
 }
 
 /// One particle, as seen from outside.
@@ -146,7 +194,7 @@ impl Particles {
         }
         self.created += 1;
         self.places.push(Place { x: position, r });
-        self.velocities.push(Velocity { v: velocity, w: spin });
+        self.velocities.push(Velocity::new(velocity, spin));
         self.class.push(class);
         self.id.push(id);
         Ok(id)
@@ -201,7 +249,8 @@ impl Particles {
     pub(crate) fn particle(&self, slot: usize) -> Particle {
         let Velocity { v, w } = self.velocities[slot];
         let position = self.places[slot].x;
-        Particle { id: self.id[slot], class: self.class[slot], position, velocity: v, spin: w }
+        let (velocity, spin) = (v.vector(), w.vector());
+        Particle { id: self.id[slot], class: self.class[slot], position, velocity, spin }
     }
 
     /// Puts the particles into the order `slots` (old slot of each new one), dropping the others.

@@ -5,10 +5,12 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 use crate::chunk::{Chunk, List, Note, Roll};
+use crate::implicit::Inverse;
 use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
 use crate::particles::Particles;
-use crate::pass::{self, View};
+use crate::pass;
+use crate::view::View;
 use crate::{Boundary, PairTerm, Partner, Profile, SimulationError, Visit, wall_pass};
 
 mod deepest;
@@ -53,6 +55,8 @@ pub struct Simulation<T: PairTerm, B> {
     limit: Limit,
     /// Velocities before the kick, for an implicit term.
     before: Vec<crate::particles::Velocity>,
+    /// 1/m and 1/I of the classes, for the same.
+    inverse: Vec<[f64; 2]>,
     passes: crate::Passes,
 }
 
@@ -98,6 +102,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let lists = neighbours::State::new(&particles, &settings);
         let start = Roll { spin: DVec3::ZERO, contacts: 1.0 };
         let rolls = vec![start; if term.rolls() { particles.len() } else { 0 }];
+        let inverse = if T::IMPLICIT { Inverse::of(particles.classes()) } else { Vec::new() };
         Ok(Self {
             particles,
             term,
@@ -112,6 +117,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             profile: Profile::default(),
             limit,
             before: Vec::new(),
+            inverse,
             passes: crate::Passes::default(),
         })
     }

@@ -41,6 +41,10 @@ pub trait PairTerm: Send + Sync {
     /// it pays to bring pairs to it several at a time.
     const LANES: bool = false;
 
+    /// Whether something acts in every pair in overlap: then [`PairTerm::idle`] is not asked of such
+    /// pairs, not of the terms beside this one either.
+    const ACTS_IN_OVERLAP: bool = false;
+
     /// Whether a load can have a couple.
     const COUPLES: bool = true;
 
@@ -53,6 +57,11 @@ pub trait PairTerm: Send + Sync {
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
         Loads::pack(pairs.permit, &L::each(|k| self.load(&pairs.pair(k), columns.column(k))))
+    }
+
+    /// Whether the term is not there at all, so that nothing needs to be asked of it or added.
+    fn is_absent(&self) -> bool {
+        false
     }
 
     /// Whether the column must not be lost, whatever the gap.
@@ -97,9 +106,16 @@ pub trait PairTerm: Send + Sync {
     /// From now on loads leave out what [`PairTerm::resist`] gives.
     fn leave_resistance(&mut self) {}
 
-    /// What resists motion in this pair, with drags at `gap` m and contacts as they are in the pair.
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        let _ = (pair, column, gap);
+    /// What resists motion in this pair, with drags at `gap` m and contacts at the encounter's.
+    /// `classes` are those of the bodies, or class and wall material, as in [`Pair`].
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        let _ = (encounter, classes, column, gap);
         Resist::default()
     }
 
@@ -183,6 +199,7 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
 
     const SETTLES: bool = A::SETTLES || B::SETTLES;
     const LANES: bool = A::LANES || B::LANES;
+    const ACTS_IN_OVERLAP: bool = A::ACTS_IN_OVERLAP || B::ACTS_IN_OVERLAP;
     const COUPLES: bool = A::COUPLES || B::COUPLES;
 
     #[inline(always)]
@@ -191,8 +208,19 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Self::Column>,
     ) -> Loads<L> {
+        if self.0.is_absent() {
+            return self.1.load_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns));
+        }
         let first = self.0.load_lanes(pairs, &mut Part::<_, First<B::Column>>::of(columns));
+        if self.1.is_absent() {
+            return first;
+        }
         first + self.1.load_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns))
+    }
+
+    #[inline(always)]
+    fn is_absent(&self) -> bool {
+        self.0.is_absent() && self.1.is_absent()
     }
 
     #[inline(always)]
@@ -252,8 +280,16 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.1.leave_resistance();
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        self.0.resist(pair, &column.0, gap) + self.1.resist(pair, &column.1, gap)
+    #[inline(always)]
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        self.0.resist(encounter, classes, &column.0, gap)
+            + self.1.resist(encounter, classes, &column.1, gap)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
@@ -294,6 +330,11 @@ impl<T: PairTerm> PairTerm for Option<T> {
             Some(term) => term.load_lanes(pairs, columns),
             None => Loads::none(pairs.permit),
         }
+    }
+
+    #[inline(always)]
+    fn is_absent(&self) -> bool {
+        self.as_ref().is_none_or(T::is_absent)
     }
 
     #[inline(always)]
@@ -346,8 +387,15 @@ impl<T: PairTerm> PairTerm for Option<T> {
         }
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        self.as_ref().map_or_else(Resist::default, |term| term.resist(pair, column, gap))
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        let resist = |term: &T| term.resist(encounter, classes, column, gap);
+        self.as_ref().map_or_else(Resist::default, resist)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {

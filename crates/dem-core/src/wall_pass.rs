@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use crate::chunk::{Chunk, List, Memory, Note, WallPair};
+use crate::chunk::{Chunk, List, Memories, Memory, Note, WallPair};
 use crate::particles::Place;
-use crate::pass::{View, add_wall, roll};
+use crate::pass::{add_wall, roll};
+use crate::view::View;
 use crate::{Boundary, Encounter, Pair, PairTerm, Partner, Touch};
 
 /// Two touches of one part whose normals differ by less than this cosine are the same touch.
@@ -124,8 +125,8 @@ fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
 fn remember<T: PairTerm>(
     term: &T,
     touches: &[Touch],
-    memories: &mut Vec<Memory<T::Column>>,
-    scratch: &mut Vec<Memory<T::Column>>,
+    memories: &mut Memories<T::Column>,
+    scratch: &mut Memories<T::Column>,
 ) {
     scratch.clear();
     for touch in touches {
@@ -160,7 +161,7 @@ pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
     let slot = slot as usize;
     let r = view.places[slot].r;
     let v = &view.velocities[slot];
-    let velocity = v.v - boundary.velocity(part);
+    let (spin, velocity) = (v.w.vector(), v.v.vector() - boundary.velocity(part));
     let half_step_normal =
         if before == touch.normal { touch.normal } else { (before + touch.normal).normalize() };
     let along = velocity.dot(half_step_normal);
@@ -172,8 +173,8 @@ pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
         normal: touch.normal,
         half_step_normal,
         separation_speed: -along,
-        slip: velocity - along * half_step_normal + (r * v.w).cross(half_step_normal),
-        spin: v.w,
+        slip: velocity - along * half_step_normal + (r * spin).cross(half_step_normal),
+        spin,
         expected_spin: DVec3::ZERO,
         rolling_inertia: 0.0,
         levers: [r, 0.0],
@@ -181,7 +182,7 @@ pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
     };
     if ROLLS {
         let roll = &view.rolls[slot];
-        pair.expected_spin = v.w + roll.spin;
+        pair.expected_spin = spin + roll.spin;
         pair.rolling_inertia = view.inertia(slot) / roll.contacts;
     }
     pair

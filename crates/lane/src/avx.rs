@@ -47,6 +47,20 @@ impl Avx {
     }
 }
 
+/// Rows of four as columns.
+#[inline(always)]
+fn turned(permit: V3, [a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
+    let avx = permit.avx;
+    let (low, high) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b));
+    let (low_too, high_too) = (avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d));
+    [
+        avx._mm256_permute2f128_pd::<0x20>(low, low_too),
+        avx._mm256_permute2f128_pd::<0x20>(high, high_too),
+        avx._mm256_permute2f128_pd::<0x31>(low, low_too),
+        avx._mm256_permute2f128_pd::<0x31>(high, high_too),
+    ]
+}
+
 impl Lane for Avx {
     const WIDTH: usize = 4;
 
@@ -72,26 +86,27 @@ impl Lane for Avx {
 
     #[inline(always)]
     fn rows<T>(permit: V3, from: &[T; 4], read: impl Fn(&T) -> [f64; 4]) -> [Self; 4] {
-        let avx = permit.avx;
         let [a, b, c, d] = [read(&from[0]), read(&from[1]), read(&from[2]), read(&from[3])];
-        let a = avx._mm256_setr_pd(a[0], a[1], a[2], a[3]);
-        let b = avx._mm256_setr_pd(b[0], b[1], b[2], b[3]);
-        let c = avx._mm256_setr_pd(c[0], c[1], c[2], c[3]);
-        let d = avx._mm256_setr_pd(d[0], d[1], d[2], d[3]);
-        let (low, high) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b));
-        let (low_too, high_too) = (avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d));
+        let [a, b, c, d] =
+            turned(permit, [pulp::cast(a), pulp::cast(b), pulp::cast(c), pulp::cast(d)]);
         // No closures: what is not inlined could not use the registers.
         [
-            Self { permit, all: avx._mm256_permute2f128_pd::<0x20>(low, low_too) },
-            Self { permit, all: avx._mm256_permute2f128_pd::<0x20>(high, high_too) },
-            Self { permit, all: avx._mm256_permute2f128_pd::<0x31>(low, low_too) },
-            Self { permit, all: avx._mm256_permute2f128_pd::<0x31>(high, high_too) },
+            Self { permit, all: a },
+            Self { permit, all: b },
+            Self { permit, all: c },
+            Self { permit, all: d },
         ]
     }
 
     #[inline(always)]
     fn unpack(self) -> [f64; 4] {
         pulp::cast(self.all)
+    }
+
+    #[inline(always)]
+    fn unpack_rows([a, b, c, d]: [Self; 4]) -> [[f64; 4]; 4] {
+        let [a, b, c, d] = turned(a.permit, [a.all, b.all, c.all, d.all]);
+        [pulp::cast(a), pulp::cast(b), pulp::cast(c), pulp::cast(d)]
     }
 
     #[inline(always)]
@@ -138,7 +153,7 @@ impl Lane for Avx {
     }
 
     #[inline(always)]
-    fn any_less(self, bound: Self) -> bool {
-        self.permit.avx._mm256_movemask_pd(self.less(bound)) != 0
+    fn less_bits(self, bound: Self) -> u32 {
+        self.permit.avx._mm256_movemask_pd(self.less(bound)).cast_unsigned()
     }
 }

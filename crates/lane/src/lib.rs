@@ -1,15 +1,19 @@
 //! Numbers that may be several at once.
 //!
 //! Kernels are written once, over a [`Lane`]: `f64` is one number, [`Four`] are four side by side, and
-//! on x86-64 [`Avx`] are four in one register of a machine that has such. All do the same operations
-//! in the same order, so they give the same bits.
+//! on x86-64 [`Avx`] and [`Avx512`] are four and eight in one register of a machine that has such.
+//! All do the same operations in the same order, so they give the same bits.
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod logarithm;
 
 #[cfg(target_arch = "x86_64")]
 pub use avx::Avx;
+#[cfg(target_arch = "x86_64")]
+pub use avx512::Avx512;
 
 /// The README's program runs as a test.
 #[cfg(doctest)]
@@ -65,6 +69,13 @@ pub trait Lane:
     /// The numbers.
     fn unpack(self) -> Self::Each<f64>;
 
+    /// The reverse of [`Lane::rows`]: four numbers that lie one behind the other, of each.
+    #[inline(always)]
+    fn unpack_rows(columns: [Self; 4]) -> Self::Each<[f64; 4]> {
+        let [a, b, c, d] = columns.map(Self::unpack);
+        Self::each(|k| [a[k], b[k], c[k], d[k]])
+    }
+
     /// The same number in each lane.
     fn splat(permit: Self::Permit, value: f64) -> Self;
 
@@ -95,8 +106,14 @@ pub trait Lane:
     #[must_use]
     fn if_less(self, bound: Self, then: Self, otherwise: Self) -> Self;
 
+    /// One bit for each lane in which `self` is less than `bound`.
+    fn less_bits(self, bound: Self) -> u32;
+
     /// Whether `self` is less than `bound` in any lane.
-    fn any_less(self, bound: Self) -> bool;
+    #[inline(always)]
+    fn any_less(self, bound: Self) -> bool {
+        self.less_bits(bound) != 0
+    }
 }
 
 impl Lane for f64 {
@@ -155,8 +172,8 @@ impl Lane for f64 {
     }
 
     #[inline(always)]
-    fn any_less(self, bound: f64) -> bool {
-        self < bound
+    fn less_bits(self, bound: f64) -> u32 {
+        u32::from(self < bound)
     }
 }
 
@@ -247,8 +264,8 @@ impl Lane for Four {
     }
 
     #[inline(always)]
-    fn any_less(self, bound: Self) -> bool {
-        self.0.simd_lt(bound.0).any()
+    fn less_bits(self, bound: Self) -> u32 {
+        self.0.simd_lt(bound.0).to_bitmask()
     }
 }
 
@@ -256,36 +273,61 @@ impl Lane for Four {
 mod tests {
     use super::*;
 
-    fn four_do_what_one_does<L: Lane<Each<f64> = [f64; 4]>>(permit: L::Permit) {
-        let a = [1.5, -0.0, 2.0 / 3.0, 3e300];
-        let b = [0.1, 0.5, 1.0, -7.0];
-        let one = |f: fn(f64, f64) -> f64| [0, 1, 2, 3].map(|k| f(a[k], b[k]).to_bits());
-        let pack = |all: &[f64; 4]| L::pack(permit, all, |v| *v);
-        let four = |f: fn(L, L) -> L| f(pack(&a), pack(&b)).unpack().map(f64::to_bits);
-        assert_eq!(one(|a, b| a * b + a / b - b), four(|a, b| a * b + a / b - b));
-        assert_eq!(one(Lane::least), four(|a, b| a.least(b)));
-        assert_eq!(one(|a, b| Lane::most(b, a)), four(|a, b| b.most(a)));
-        assert_eq!(one(|a, b| Lane::sqrt(a * a + b)), four(|a, b| (a * a + b).sqrt()));
-        assert_eq!(
-            one(|a, b| (a * a + b * b).logarithm()),
-            four(|a, b| (a * a + b * b).logarithm())
-        );
-        assert_eq!(one(|a, b| a.if_less(b, -a, b)), four(|a, b| a.if_less(b, -a, b)));
-        let rows = [a, b, [2.0; 4], [0.0, 1.0, 2.0, 3.0]];
-        let columns = L::rows(permit, &L::each(|k| rows[k]), |row| *row).map(L::unpack);
-        assert!((0..16).all(|k| columns[k / 4][k % 4].to_bits() == rows[k % 4][k / 4].to_bits()));
-        assert!(pack(&a).any_less(pack(&b)) && !pack(&a).any_less(pack(&a)));
+    const A: [f64; 8] = [1.5, -0.0, 2.0 / 3.0, 3e300, -1.0, 0.3, 1e-300, 5.0];
+    const B: [f64; 8] = [0.1, 0.5, 1.0, -7.0, 0.0, 0.3, -2.0, 1e-9];
+
+    /// Whether a function gives of all numbers at once what it gives of each.
+    fn same<L: Lane>(permit: L::Permit, one: fn(f64, f64) -> f64, all: fn(L, L) -> L) -> bool {
+        let pack = |numbers: &[f64; 8]| L::pack(permit, &L::each(|k| numbers[k]), |v| *v);
+        let given = all(pack(&A), pack(&B)).unpack();
+        (0..L::WIDTH).all(|k| given[k].to_bits() == one(A[k], B[k]).to_bits())
+    }
+
+    fn all_do_what_one_does<L: Lane>(permit: L::Permit) {
+        assert!(same::<L>(permit, |a, b| a * b + a / b - b, |a, b| a * b + a / b - b));
+        assert!(same::<L>(permit, Lane::least, |a, b| a.least(b)));
+        assert!(same::<L>(permit, |a, b| Lane::most(b, a), |a, b| b.most(a)));
+        assert!(same::<L>(permit, |a, b| (a * a + b * b).sqrt(), |a, b| (a * a + b * b).sqrt()));
+        assert!(same::<L>(permit, |a, b| -a + b, |a, b| -a + b));
+        let one = |a: f64, b: f64| (a * a + b * b).logarithm();
+        assert!(same::<L>(permit, one, |a, b| (a * a + b * b).logarithm()));
+        assert!(same::<L>(permit, |a, b| a.if_less(b, -a, b), |a, b| a.if_less(b, -a, b)));
+    }
+
+    fn rows_are_turned_there_and_back<L: Lane>(permit: L::Permit) {
+        let rows = L::each(|k| [A[k], B[k], 7.0 - k as f64, k as f64]);
+        let columns = L::rows(permit, &rows, |row| *row);
+        let back = L::unpack_rows(columns);
+        let columns = columns.map(L::unpack);
+        for k in 0..L::WIDTH {
+            let column = [0, 1, 2, 3].map(|c: usize| columns[c][k]);
+            assert_eq!(column.map(f64::to_bits), rows[k].map(f64::to_bits));
+            assert_eq!(back[k].map(f64::to_bits), rows[k].map(f64::to_bits));
+        }
+    }
+
+    fn several_behave<L: Lane>(permit: L::Permit) {
+        all_do_what_one_does::<L>(permit);
+        rows_are_turned_there_and_back::<L>(permit);
         let (nan, two) = (L::splat(permit, f64::NAN), L::splat(permit, 2.0));
-        assert_eq!((nan.least(two).unpack(), nan.most(two).unpack()), ([2.0; 4], [2.0; 4]));
-        assert!(!nan.any_less(two));
+        assert!((0..L::WIDTH).all(|k| nan.least(two).unpack()[k] == 2.0));
+        assert!((0..L::WIDTH).all(|k| nan.most(two).unpack()[k] == 2.0));
+        assert!(!nan.any_less(two) && !two.any_less(two));
+        let last = L::pack(permit, &L::each(|k| k as f64), |v| *v);
+        assert!(two.any_less(last) && last.any_less(two));
+        assert_eq!(last.less_bits(two), 0b11);
     }
 
     #[test]
-    fn four_do_what_one_does_to_the_bit() {
-        four_do_what_one_does::<Four>(());
+    fn several_do_what_one_does_to_the_bit() {
+        several_behave::<Four>(());
         #[cfg(target_arch = "x86_64")]
         if let Some(permit) = pulp::x86::V3::try_new() {
-            four_do_what_one_does::<Avx>(permit);
+            several_behave::<Avx>(permit);
+        }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(permit) = pulp::x86::V4::try_new() {
+            several_behave::<Avx512>(permit);
         }
         assert_eq!((Lane::least(f64::NAN, 2.0), Lane::most(f64::NAN, 2.0)), (2.0, 2.0));
     }

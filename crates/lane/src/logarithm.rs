@@ -46,10 +46,12 @@ pub(super) fn of<L: Lane>(x: L) -> L {
     let f = m - L::splat(permit, 1.0);
     let s = f / (L::splat(permit, 2.0) + f);
     let z = s * s;
-    let mut series = L::splat(permit, SERIES[6]);
-    for &factor in SERIES[..6].iter().rev() {
-        series = series * z + L::splat(permit, factor);
-    }
+    // Two sums that do not wait for each other.
+    let square = z * z;
+    let of = |k: usize| L::splat(permit, SERIES[k]);
+    let odd = of(1) + square * (of(3) + square * of(5));
+    let even = of(0) + square * (of(2) + square * (of(4) + square * of(6)));
+    let series = even + z * odd;
     let half_square = L::splat(permit, 0.5) * f * f;
     let small = s * (half_square + z * series) + k * L::splat(permit, LN2_LOW);
     k * L::splat(permit, LN2_HIGH) - ((half_square - small) - f)

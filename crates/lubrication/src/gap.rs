@@ -140,6 +140,10 @@ impl Clearance {
     #[inline(always)]
     pub(crate) fn of<L: Lane>(each: &L::Each<&Self>, gap: L) -> L {
         let permit = gap.permit();
+        let (contact, zero) = (L::pack(permit, each, |c| c.contact), L::splat(permit, 0.0));
+        if !(0..L::WIDTH).fold(false, |any, k| any | each[k].cut_off) {
+            return gap.most(zero) + contact;
+        }
         let least = L::pack(permit, each, |c| if c.cut_off { c.contact } else { 0.0 });
         let added = L::pack(permit, each, |c| if c.cut_off { 0.0 } else { c.contact });
         gap.most(least) + added

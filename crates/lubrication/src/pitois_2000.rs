@@ -89,8 +89,8 @@ impl Pitois2000Curve {
     #[inline(always)]
     fn open_gaps<L: Lane>(curves: &L::Each<&Self>, clearance: L) -> L {
         let permit = clearance.permit();
-        let strength = L::pack(permit, curves, |curve| curve.strength);
-        let width_squared = L::pack(permit, curves, |curve| curve.width_squared);
+        let [strength, width_squared, ..] =
+            L::rows(permit, curves, |curve| [curve.strength, curve.width_squared, 0.0, 0.0]);
         let slant = (clearance * clearance + width_squared).sqrt();
         let wetted = width_squared / (slant * (slant + clearance));
         strength / clearance * wetted * wetted

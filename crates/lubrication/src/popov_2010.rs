@@ -84,9 +84,9 @@ impl Popov2010Curve {
     #[inline(always)]
     fn open_gaps<L: Lane>(curves: &L::Each<&Self>, clearance: L) -> L {
         let permit = clearance.permit();
-        let half_radius = L::pack(permit, curves, |curve| curve.half_radius);
-        let logarithm = (L::splat(permit, 1.0) + half_radius / clearance).logarithm();
-        L::pack(permit, curves, |curve| curve.scale) * logarithm
+        let [scale, half_radius, ..] =
+            L::rows(permit, curves, |curve| [curve.scale, curve.half_radius, 0.0, 0.0]);
+        scale * (L::splat(permit, 1.0) + half_radius / clearance).logarithm()
     }
 }
 

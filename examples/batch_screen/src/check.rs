@@ -66,6 +66,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), SceneError> {
     }
     check.within("guard.overlap_share", scene.guard.overlap_share, 1e-3, 10.0)?;
     scene.guard.speed.map_or(Ok(()), |speed| check.positive("guard.speed", speed))?;
+    crate::assumed::check(scene)?;
     materials(scene, &check)?;
     classes(scene, &check)?;
     screen(scene, &check)?;
@@ -171,7 +172,7 @@ fn packing(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
         }
         Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
             check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
-            let lowest = 0.5 * scene.screen.wire_diameter_mm + scene.motion.amplitude_mm[2];
+            let lowest = 0.5 * scene.screen.wire_diameter_mm + scene.motion.reach_mm()[2];
             let highest = scene.screen.height_mm;
             check.within("packing.floor_height_mm", *floor_height_mm, lowest, highest)?;
             check.positive("packing.settle_at_most", *settle_at_most)
@@ -188,9 +189,13 @@ fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     check.positive("screen.diameter_mm", screen.diameter_mm)?;
     check.positive("screen.height_mm", screen.height_mm)?;
     check.positive("screen.collect_below_mm", screen.collect_below_mm)?;
+    for (k, many) in screen.frame_elements.iter().enumerate() {
+        check.within(&format!("screen.frame_elements[{k}]"), f64::from(*many), 1.0, 1e3)?;
+    }
+    let element = screen.wire_element_mm.unwrap_or(screen.diameter_mm);
+    check.within("screen.wire_element_mm", element, 0.1, 1e4)?;
     check.within("screen.wire_sides", f64::from(screen.wire_sides), 3.0, 256.0)?;
-    check.within("motion.frequency", scene.motion.frequency, 0.0, 1e5)?;
-    check.within("motion.ramp", scene.motion.ramp, 0.0, 1e6)?;
+    motion(scene, check)?;
     if let Some(housing) = &scene.housing {
         known_material(scene, check, "housing.material", &housing.material)?;
         check.within("housing.plate_angle_deg", housing.plate_angle_deg, 5.0, 80.0)?;
@@ -204,11 +209,22 @@ fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
             check.positive(&format!("parts[{k}].half_side_mm"), half)?;
         }
     }
-    for axis in 0..3 {
-        let amplitude = scene.motion.amplitude_mm[axis];
-        check.within(&format!("motion.amplitude_mm[{axis}]"), amplitude, 0.0, 1e3)?;
-        let phase = scene.motion.phase_deg[axis];
-        check.within(&format!("motion.phase_deg[{axis}]"), phase, -360.0, 360.0)?;
+    Ok(())
+}
+
+fn motion(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
+    check.within("motion.ramp", scene.motion.ramp, 0.0, 1e6)?;
+    for (k, term) in scene.motion.all().enumerate() {
+        let table = match k {
+            0 => "motion".to_owned(),
+            k => format!("motion.terms[{}]", k - 1),
+        };
+        check.within(&format!("{table}.frequency"), term.frequency, 0.0, 1e5)?;
+        for axis in 0..3 {
+            let (amplitude, phase) = (term.amplitude_mm[axis], term.phase_deg[axis]);
+            check.within(&format!("{table}.amplitude_mm[{axis}]"), amplitude, 0.0, 1e3)?;
+            check.within(&format!("{table}.phase_deg[{axis}]"), phase, -360.0, 360.0)?;
+        }
     }
     Ok(())
 }

@@ -35,6 +35,9 @@ pub(crate) enum Command {
     Check {
         /// A scene file or the name of a built-in scene.
         scene: String,
+        /// Takes another value for a key of the scene, as in `run`.
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
     },
     /// Proposes the smallest scene that gives the same result, with evidence from short runs.
     Needs {
@@ -78,6 +81,12 @@ pub(crate) enum Command {
         /// The page.
         #[arg(long, default_value = "compare.html", value_name = "FILE")]
         out: PathBuf,
+        /// Draws the fraction retained over time into an SVG file too.
+        #[arg(long, value_name = "FILE")]
+        svg: Option<PathBuf>,
+        /// What the drawing shows: `total` or the name of a class.
+        #[arg(long, value_name = "NAME", default_value = "total", requires = "svg")]
+        of: String,
     },
 }
 

@@ -17,7 +17,7 @@ use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::scene::Scene;
-use crate::{auto, builtin, limits, needs, page, report};
+use crate::{auto, builtin, limits, needs, page, progress, report};
 
 /// More threads are taken for a mistake.
 const MOST_THREADS: usize = 1024;
@@ -98,8 +98,8 @@ fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
 }
 
 /// Checks a scene and says what follows from it.
-pub(crate) fn check(name: &str) -> Result<(), RunError> {
-    let Loaded { scene, base, .. } = load(name, &[])?;
+pub(crate) fn check(name: &str, set: &[String]) -> Result<(), RunError> {
+    let Loaded { scene, base, .. } = load(name, &sets(set)?)?;
     let built = build::build(&scene, &unsettled(&base, &AtomicBool::new(false)))?;
     println!("{}", report::header(&scene, &built));
     print!("{}", limits::text(&limits::table(&scene, &built), built.settings.time_step));
@@ -151,10 +151,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
     run_until(args, stop_flag())
 }
 
+/// What `--set` says, one `KEY=VALUE` each.
+fn sets(all: &[String]) -> Result<Vec<Set>, SceneError> {
+    all.iter().map(|set| Set::parse(set)).collect()
+}
+
 /// The scene that the command line asks for.
 fn asked(args: &RunArgs) -> Result<Loaded, SceneError> {
-    let sets: Vec<Set> = args.set.iter().map(|set| Set::parse(set)).collect::<Result<_, _>>()?;
-    let mut loaded = load(&args.scene, &sets)?;
+    let mut loaded = load(&args.scene, &sets(&args.set)?)?;
     let scene = &mut loaded.scene;
     scene.time = args.time.unwrap_or(scene.time);
     scene.time_step = args.dt.or(scene.time_step);
@@ -275,6 +279,9 @@ fn finish(
     say(&report::table(scene, &derived, &outcome));
     let page = page::report(&job.out)?;
     say(&format!("results in {}, report in {}", job.out.display(), page.display()));
+    if style == Style::Json {
+        progress::done(&outcome.tally, &job.out, &page);
+    }
     Ok(())
 }
 
@@ -285,7 +292,15 @@ pub(crate) fn report(folder: &Path) -> Result<(), RunError> {
 }
 
 /// Overlays runs on one page.
-pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), RunError> {
+pub(crate) fn compare(
+    folders: &[PathBuf],
+    out: &Path,
+    drawing: Option<(&Path, &str)>,
+) -> Result<(), RunError> {
+    if let Some((path, column)) = drawing {
+        page::drawing(folders, column, path)?;
+        println!("{}", path.display());
+    }
     page::compare(folders, out)?;
     println!("{}", out.display());
     Ok(())

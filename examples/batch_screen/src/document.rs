@@ -92,12 +92,39 @@ pub(crate) fn with(text: &str, origin: &mut Origin, sets: &[Set]) -> Result<Stri
         put(&mut root, set)?;
         origin.give(&set.key, set.place.clone());
     }
+    forget_assumed(&mut root, sets);
     let unwritable = |e: toml::ser::Error| SceneError::Syntax {
         place: origin.place(""),
         key: ".".into(),
         message: e.to_string(),
     };
     toml::to_string(&root).map_err(unwritable)
+}
+
+/// A table that was given anew may lack keys whose values the document assumed.
+fn forget_assumed(root: &mut Value, sets: &[Set]) {
+    let Some(table) = root.as_table().cloned() else { return };
+    let Some(Value::Array(assumed)) = root.get_mut("assumed") else { return };
+    let in_a_set = |key: &str| {
+        let mut keys = sets.iter().map(|set| set.key.as_str());
+        keys.any(|set| key.strip_prefix(set).is_some_and(|rest| rest.starts_with(['.', '['])))
+    };
+    assumed
+        .retain(|key| key.as_str().is_none_or(|key| find(&table, key).is_some() || !in_a_set(key)));
+}
+
+/// The value of a key such as `classes[0].density`.
+pub(crate) fn find<'t>(table: &'t Table, key: &str) -> Option<&'t Value> {
+    let spaced = key.replace('[', ".[");
+    let mut steps = spaced.split('.');
+    let mut at = table.get(steps.next()?)?;
+    for step in steps {
+        at = match step.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
+            Some(index) => at.as_array()?.get(index.parse::<usize>().ok()?)?,
+            None => at.as_table()?.get(step)?,
+        };
+    }
+    Some(at)
 }
 
 fn put(root: &mut Value, set: &Set) -> Result<(), SceneError> {
@@ -157,6 +184,23 @@ mod tests {
         assert_eq!(table["l"][0]["c"].as_integer(), Some(1));
         assert_eq!(table["t"]["new"]["deep"].as_bool(), Some(true));
         assert_eq!(table["a"].as_float(), Some(1e-3));
+    }
+
+    #[test]
+    fn a_table_given_anew_takes_what_was_assumed_in_it_along() {
+        let text =
+            "assumed = [\"t.b\", \"a\", \"t.typo\", \"l[0].c\"]\na = 1\n[t]\nb = 2\n[[l]]\nc = 1\n";
+        let assumed = |arguments: &[&str]| {
+            let sets: Vec<Set> = arguments.iter().map(|a| Set::parse(a).unwrap()).collect();
+            let mut origin = Origin::new(Path::new("a.toml"), text);
+            let table: Table = with(text, &mut origin, &sets).unwrap().parse().unwrap();
+            table["assumed"].as_array().unwrap().len()
+        };
+        // A key that was never there stays, to be refused.
+        assert_eq!(assumed(&["t.b=3"]), 4);
+        assert_eq!(assumed(&["t={x=1}"]), 2);
+        assert_eq!(assumed(&["t={b=1}"]), 3);
+        assert_eq!(assumed(&["l=[]"]), 3);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use pendular::dem::{Boundary, Partner, Simulation, SimulationError};
 use crate::build::apparatus::collection;
 use crate::makeup::Makeup;
 use crate::scene::{Escapes, Scene};
-use crate::screening::{Passage, Screening};
+use crate::screening::{Passage, Screening, displacement};
 
 /// A sphere may be this many times faster than a free fall through the whole apparatus and the
 /// fastest wall can make it: light spheres are flung by heavy ones.
@@ -101,7 +101,7 @@ impl Guard {
         if overlap > self.overlap_share {
             return Err(fault(self.overlapping(simulation, overlap), STEP));
         }
-        let shift = simulation.boundary().0.displacement(0);
+        let shift = displacement(simulation);
         let walls = self.frame.filter(|_| self.escapes == Escapes::Stop);
         for one in simulation.particles().iter() {
             let speed = one.velocity.length();

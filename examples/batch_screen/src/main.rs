@@ -1,5 +1,6 @@
 //! Moist batch screening: spheres with liquid on a vibrating wire screen.
 
+mod assumed;
 mod auto;
 mod budget;
 mod build;
@@ -48,7 +49,7 @@ fn main() -> ExitCode {
         Command::List => commands::list(),
         Command::Show { name } => commands::show(&name),
         Command::Sample { file, sweep } => commands::sample(file, sweep),
-        Command::Check { scene } => commands::check(&scene),
+        Command::Check { scene, set } => commands::check(&scene, &set),
         Command::Needs { scene, tolerance, time, beds, threads } => {
             commands::needs(&scene, tolerance, time, beds.as_deref(), threads)
         }
@@ -56,7 +57,9 @@ fn main() -> ExitCode {
         Command::Resume { folder, how } => commands::resume(&folder, &how),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Report { folder } => commands::report(&folder),
-        Command::Compare { folders, out } => commands::compare(&folders, &out),
+        Command::Compare { folders, out, svg, of } => {
+            commands::compare(&folders, &out, svg.as_deref().map(|svg| (svg, of.as_str())))
+        }
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -24,6 +25,20 @@ pub(crate) enum Style {
     Json,
     /// Nothing.
     Quiet,
+}
+
+/// The last line for other programs: the run has come to its end.
+pub(crate) fn done(tally: &Tally, folder: &Path, page: &Path) {
+    let line = json!({
+        "done": true,
+        "time_s": tally.time,
+        "above": tally.above.iter().sum::<u64>(),
+        "collected": tally.collected.iter().sum::<u64>(),
+        "liquid_imbalance": tally.imbalance,
+        "folder": folder,
+        "report": page,
+    });
+    let _ = writeln!(std::io::stdout(), "{line}");
 }
 
 /// Tells how far a run is.

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::assumed;
 use crate::budget;
 use crate::build::{Built, Derived};
 use crate::error::RunError;
 use crate::guard::Guard;
 use crate::run::Outcome;
-use crate::scene::{Scene, WireKind};
+use crate::scene::{Drag, Scene, WireKind};
 use crate::screening::partition;
 use crate::tables::{groups, retained};
 use crate::tally::{Tally, wall_speed};
@@ -37,24 +38,24 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         "  screen       a = {} mm, w = {} mm, diameter {} mm, wires as {wires}\n",
         screen.aperture_mm, screen.wire_diameter_mm, screen.diameter_mm
     );
-    text += &format!(
-        "  motion       {} Hz, amplitude {:?} mm, at most {:.3} m/s\n",
-        scene.motion.frequency,
-        scene.motion.amplitude_mm,
-        wall_speed(&built.walls)
-    );
+    for term in scene.motion.all() {
+        let (frequency, amplitude) = (term.frequency, term.amplitude_mm);
+        text += &format!("  motion       {frequency} Hz, amplitude {amplitude:?} mm\n");
+    }
+    text += &format!("               at most {:.3} m/s\n", wall_speed(&built.walls));
     match &scene.liquid {
         None => text += "  liquid       none: a dry run\n",
         Some(liquid) => {
             text += &format!(
-                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n",
+                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n  drag         {}\n",
                 liquid.moisture_percent,
                 1e6 * derived.liquid,
                 1e6 * derived.film,
                 liquid.capillary,
                 liquid.normal_drag,
                 liquid.tangential_drag,
-                liquid.rupture
+                liquid.rupture,
+                drag(liquid.drag, derived.implicit)
             );
         }
     }
@@ -64,8 +65,23 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         100.0 * scene.guard.overlap_share,
         guard.speed()
     );
+    for (key, value) in assumed::list(scene) {
+        text += &format!("  assumed      {key} = {value}\n");
+    }
     text += &format!("  time step    {:.3e} s", built.settings.time_step);
     text
+}
+
+/// How the drags enter the step, and why.
+fn drag(asked: Drag, implicit: bool) -> &'static str {
+    match (asked, implicit) {
+        (Drag::Auto, true) => {
+            "implicit: taken from the start of the step it would limit it more than the contacts do"
+        }
+        (Drag::Auto, false) => "explicit: it limits the step less than the contacts do",
+        (_, true) => "implicit, as asked for",
+        (_, false) => "explicit, as asked for",
+    }
 }
 
 /// The final table.
@@ -157,9 +173,11 @@ pub(crate) fn summary(
         "scene": source,
         "title": scene.title,
         "decided": decided.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
-        "assumptions": {
-            "screen_diameter_mm": scene.screen.diameter_mm,
-            "amplitude_mm": scene.motion.amplitude_mm,
+        "assumptions": assumed::list(scene).into_iter().collect::<serde_json::Map<_, _>>(),
+        "screen": {
+            "diameter_mm": scene.screen.diameter_mm,
+            "aperture_mm": scene.screen.aperture_mm,
+            "wire_diameter_mm": scene.screen.wire_diameter_mm,
         },
         "derived": {
             "time_step_s": settings.time_step,
@@ -169,6 +187,7 @@ pub(crate) fn summary(
             "film_m": derived.film,
         },
         "time_s": tally.time,
+        "drag": scene.liquid.as_ref().map(|_| if derived.implicit { "implicit" } else { "explicit" }),
         "steps": outcome.steps,
         "threads": settings.threads,
         "fraction_retained": {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use pendular::dem::{Departure, Particle, Simulation};
+use pendular::dem::{Departure, Implicit, Particle, Simulation};
 use pendular::{Account, Budget, MeshWalls};
 
 use self::start::begin;
@@ -82,6 +82,10 @@ pub(crate) fn run(
     let Built { particles, walls, contact, wet, settings, derived } = built;
     match wet {
         None => begin(scene, particles, contact, walls, settings, derived, job, from)?.go(progress),
+        Some(wet) if derived.implicit => {
+            let term = Implicit::new((contact, wet));
+            begin(scene, particles, term, walls, settings, derived, job, from)?.go(progress)
+        }
         Some(wet) => {
             let term = (contact, wet);
             begin(scene, particles, term, walls, settings, derived, job, from)?.go(progress)

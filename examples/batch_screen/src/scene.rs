@@ -16,8 +16,14 @@ pub(crate) struct Scene {
     /// Where its values were given, for messages.
     #[serde(skip)]
     pub(crate) origin: Origin,
+    /// The document itself, for what is told of it as it was written.
+    #[serde(skip)]
+    pub(crate) document: toml::Table,
     /// One line that says what this is.
     pub(crate) title: String,
+    /// Keys whose values no source gives; told with the results.
+    #[serde(default)]
+    pub(crate) assumed: Vec<String>,
     /// Simulated time, s.
     pub(crate) time: f64,
     /// Time step, s; a share of the stability limit where it is left out.
@@ -181,6 +187,12 @@ pub(crate) struct Screen {
     /// Sides of the prisms of `wires = "mesh"`.
     #[serde(default = "sixteen")]
     pub(crate) wire_sides: u32,
+    /// Elements of the frame that hold a film each: around (cylinders only) and along.
+    #[serde(default = "patches")]
+    pub(crate) frame_elements: [u32; 2],
+    /// Length of the wires' elements that hold a film each, mm; one pitch where it is left out.
+    #[serde(default)]
+    pub(crate) wire_element_mm: Option<f64>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -225,7 +237,7 @@ pub(crate) enum WireKind {
     Mesh,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ScreenMotion {
     pub(crate) frequency: f64,
@@ -236,6 +248,34 @@ pub(crate) struct ScreenMotion {
     /// Duration of a smooth start of the motion, s; none where it is left out.
     #[serde(default)]
     pub(crate) ramp: f64,
+    /// Further harmonic terms, added to the first.
+    #[serde(default)]
+    pub(crate) terms: Vec<HarmonicTerm>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HarmonicTerm {
+    pub(crate) frequency: f64,
+    /// Amplitude along x, y, z, mm.
+    pub(crate) amplitude_mm: [f64; 3],
+    #[serde(default)]
+    pub(crate) phase_deg: [f64; 3],
+}
+
+impl ScreenMotion {
+    /// All terms whose sum is the motion.
+    pub(crate) fn all(&self) -> impl Iterator<Item = HarmonicTerm> + '_ {
+        let Self { frequency, amplitude_mm, phase_deg, .. } = *self;
+        [HarmonicTerm { frequency, amplitude_mm, phase_deg }]
+            .into_iter()
+            .chain(self.terms.iter().copied())
+    }
+
+    /// Farthest that the screen may move along each axis, mm.
+    pub(crate) fn reach_mm(&self) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.all().map(|term| term.amplitude_mm[axis]).sum())
+    }
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -252,6 +292,9 @@ pub(crate) struct LiquidSpec {
     pub(crate) normal_drag: String,
     pub(crate) tangential_drag: String,
     pub(crate) tangential_drag_wall: String,
+    /// How drags enter the step.
+    #[serde(default)]
+    pub(crate) drag: Drag,
     /// Roughness of the lubrication gap as a share of the radius.
     #[serde(default = "thousandth")]
     pub(crate) roughness_share: f64,
@@ -260,6 +303,19 @@ pub(crate) struct LiquidSpec {
     pub(crate) dynamic_rupture: DynamicRupture,
     pub(crate) transfer: Transfer,
     pub(crate) outside_range: OutsideRange,
+}
+
+/// How drags, and with them dashpots and rolling friction, enter the step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Drag {
+    /// Explicit while the drags allow as long a step as the contacts do, else implicit.
+    #[default]
+    Auto,
+    /// With the velocities before the step.
+    Explicit,
+    /// With those after it: no drag limits the step.
+    Implicit,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -309,6 +365,10 @@ fn sixteen() -> u32 {
     16
 }
 
+fn patches() -> [u32; 2] {
+    [36, 12]
+}
+
 fn thousandth() -> f64 {
     0.001
 }
@@ -322,6 +382,7 @@ impl Scene {
     /// Reads a scene from a text whose values were given at `origin`.
     pub(crate) fn read(text: &str, origin: Origin) -> Result<Self, SceneError> {
         let mut scene: Self = document::read(text, &origin)?;
+        scene.document = document::read(text, &origin)?;
         scene.origin = origin;
         crate::check::check(&scene)?;
         Ok(scene)

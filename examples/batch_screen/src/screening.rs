@@ -118,9 +118,11 @@ impl Screening {
 }
 
 /// Where the screen is now, against its rest position.
-fn displacement<T: PairTerm>(simulation: &Simulation<T, MeshWalls>) -> DVec3 {
-    // The wires come first among the parts.
-    simulation.boundary().0.displacement(0)
+pub(crate) fn displacement<T: PairTerm>(simulation: &Simulation<T, MeshWalls>) -> DVec3 {
+    let walls = &simulation.boundary().0;
+    // All parts that move do so with the screen. The wires come first, unless a file replaces them.
+    let moving = walls.parts().iter().position(|part| !part.motion.is_still());
+    moving.map_or(DVec3::ZERO, |part| walls.displacement(part as u32))
 }
 
 /// Diameter (of `diameters`, ascending by `order`) at which the probability of passing falls

@@ -13,6 +13,8 @@ pub(crate) struct Spent {
     pairs: Duration,
     walls: Duration,
     bridges: Duration,
+    /// Implicit drags.
+    resistance: Duration,
     integration: Duration,
     pub(crate) output: Duration,
 }
@@ -25,42 +27,49 @@ impl Spent {
             pairs: self.pairs + profile.pairs,
             walls: self.walls + profile.walls,
             bridges: self.bridges + profile.settling,
+            resistance: self.resistance + profile.resistance,
             integration: self.integration + profile.integration,
             output: self.output,
         }
     }
 
-    fn parts(&self) -> [(&'static str, f64); 6] {
-        [
+    /// Of implicit drags only where there are any.
+    fn parts(&self) -> Vec<(&'static str, f64)> {
+        let all = [
             ("neighbours", self.neighbours),
             ("pairs", self.pairs),
             ("walls", self.walls),
             ("bridges", self.bridges),
+            ("resistance", self.resistance),
             ("integration", self.integration),
             ("output", self.output),
-        ]
-        .map(|(name, time)| (name, time.as_secs_f64()))
+        ];
+        let told = all.into_iter().filter(|(name, time)| *name != "resistance" || !time.is_zero());
+        told.map(|(name, time)| (name, time.as_secs_f64())).collect()
     }
 
-    fn shares(&self) -> [(&'static str, f64); 6] {
+    fn shares(&self) -> Vec<(&'static str, f64)> {
         let all: f64 = self.parts().iter().map(|(_, seconds)| seconds).sum();
         let share = |seconds: f64| if all > 0.0 { 100.0 * seconds / all } else { 0.0 };
-        self.parts().map(|(name, seconds)| (name, share(seconds)))
+        self.parts().into_iter().map(|(name, seconds)| (name, share(seconds))).collect()
     }
 
     /// Seconds by name.
     pub(crate) fn seconds(&self) -> Map<String, Value> {
-        self.parts().map(|(name, seconds)| (name.to_owned(), json!(seconds))).into_iter().collect()
+        let one = |(name, seconds): (&str, f64)| (name.to_owned(), json!(seconds));
+        self.parts().into_iter().map(one).collect()
     }
 
     /// Percent of the sum by name.
     pub(crate) fn percent(&self) -> Map<String, Value> {
-        self.shares().map(|(name, share)| (name.to_owned(), json!(share))).into_iter().collect()
+        let one = |(name, share): (&str, f64)| (name.to_owned(), json!(share));
+        self.shares().into_iter().map(one).collect()
     }
 
     /// One line for people.
     pub(crate) fn line(&self) -> String {
-        let told = self.shares().map(|(name, share)| format!("{name} {share:.0} %"));
+        let one = |(name, share)| format!("{name} {share:.0} %");
+        let told: Vec<String> = self.shares().into_iter().map(one).collect();
         format!("computing time: {}", told.join(", "))
     }
 }

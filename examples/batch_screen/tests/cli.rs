@@ -47,6 +47,7 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
     assert_eq!(totals.len(), 9);
     assert!(totals.iter().all(|v| (v / totals[0] - 1.0).abs() < 1e-8));
     divisions(&folder.path().join("one"), &totals, &summary);
+    headers_are_those_of_the_docs(&folder.path().join("one"));
     let percent = summary["time_split_percent"].as_object().unwrap();
     let all: f64 = percent.values().map(|v| v.as_f64().unwrap()).sum();
     assert!(percent.len() == 6 && (all - 100.0).abs() < 1e-9, "{percent:?}");
@@ -61,6 +62,29 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
     for table in ["retained.csv", "liquid.csv", "passages.csv", "replay.csv", "energy.csv"] {
         let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
         assert!(read("one") == read("two"), "{table} differs");
+    }
+}
+
+/// Every table has the header that `docs/tables.md` says.
+fn headers_are_those_of_the_docs(folder: &std::path::Path) {
+    let docs = include_str!("../../../docs/tables.md");
+    let rows: Vec<(&str, &str)> =
+        docs.lines().filter_map(|line| line.strip_prefix("| `")?.split_once(".csv` | ")).collect();
+    assert_eq!(rows.len(), TABLES.len());
+    for (name, columns) in rows {
+        let columns = columns.split(" | ").next().unwrap();
+        let mut told = Vec::new();
+        for column in columns.split('`').skip(1).step_by(2) {
+            let each: &[&str] = match column {
+                c if c.contains("CLASS") => &["5 mm", "7 mm", "10 mm"],
+                c if c.contains("PART") => &["wires", "frame", "impact plate", "outlet"],
+                _ => &[""],
+            };
+            let named = |n: &&str| column.replace("CLASS", n).replace("PART", n);
+            told.extend(each.iter().map(named));
+        }
+        let table = fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap();
+        assert_eq!(table.lines().next().unwrap(), told.join(","), "{name}.csv");
     }
 }
 
@@ -219,7 +243,7 @@ fn missing_and_broken_files() {
     let unknown = run(folder.path(), &["run", "nothing"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(text(&unknown.stderr).contains("e18-18"));
-    let good = small();
+    let good = small().replace("\"packing.floor_height_mm\", ", "");
     let start = good.find("[packing]").unwrap();
     let end = good.find("[screen]").unwrap();
     let with =
@@ -269,13 +293,25 @@ const TABLES: [&str; 10] = [
 
 #[test]
 fn a_killed_run_goes_on_to_the_same_bytes() {
+    killed("liquid.viscosity=0.001");
+}
+
+/// A liquid as viscous as this one makes the drags implicit, and they remember their impulses.
+#[test]
+fn a_killed_run_with_implicit_drags_goes_on_to_the_same_bytes() {
+    let summary = killed("liquid.viscosity=10.0");
+    assert_eq!(summary["drag"], "implicit");
+}
+
+fn killed(set: &str) -> serde_json::Value {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();
-    let whole = run(folder.path(), &["run", "small.toml", "--out", "whole", "--vtk", "0.03"]);
+    let out = ["run", "small.toml", "--vtk", "0.03", "--set", set, "--out"];
+    let whole = run(folder.path(), &[&out[..], &["whole"]].concat());
     assert!(whole.status.success(), "{}", text(&whole.stderr));
     // Killed at three moments, the first before any row; each time it is taken up where it was.
     let quick = ["--checkpoint-every", "0.02", "--threads", "1"];
-    let mut args = vec!["run", "small.toml", "--out", "cut", "--vtk", "0.03"];
+    let mut args = [&out[..], &["cut"]].concat();
     for rows in [0, 3, 6] {
         let mut child = program()
             .current_dir(folder.path())
@@ -321,6 +357,30 @@ fn a_killed_run_goes_on_to_the_same_bytes() {
     let imbalance = |run: &str| summary(&folder.path().join(run))["liquid_imbalance"].clone();
     assert_eq!(imbalance("whole"), imbalance("cut"));
     assert!(folder.path().join("cut/report.html").exists());
+    summary(&folder.path().join("cut"))
+}
+
+#[test]
+fn a_viscous_scene_runs_at_the_step_of_its_contacts() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let check = |set: &[&str]| {
+        let both = [&["check", "small.toml", "--set", "liquid.viscosity=10.0"], set].concat();
+        text(&run(folder.path(), &both).stdout)
+    };
+    let said = check(&[]);
+    assert!(said.contains("drag         implicit") && !said.contains("viscous drag"), "{said}");
+    let said = check(&["--set", "liquid.drag=explicit"]);
+    assert!(said.contains("drag         explicit, as asked for"), "{said}");
+    assert!(said.contains("set by the viscous drag"), "{said}");
+    let short = ["run", "small.toml", "--time", "0.02", "--set", "liquid.viscosity=10.0"];
+    let ran = run(folder.path(), &short);
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let refused = run(folder.path(), &[&short[..], &["--set", "liquid.drag=explicit"]].concat());
+    assert!(text(&refused.stderr).contains("viscous drag"), "{}", text(&refused.stderr));
+    let unknown = run(folder.path(), &["check", "small.toml", "--set", "liquid.drag=partly"]);
+    let said = text(&unknown.stderr);
+    assert!(said.contains("partly") && said.contains("implicit"), "{said}");
 }
 
 #[test]

@@ -312,6 +312,24 @@ fn a_comparison_holds_every_run_and_tells_same_names_apart() {
 }
 
 #[test]
+fn a_drawing_shows_a_column_of_every_run() {
+    let (first, second) = (whole(), small());
+    let folders = [first.path().to_path_buf(), second.path().to_path_buf()];
+    let out = first.path().join("y.svg");
+    page::drawing(&folders, "5 mm", &out).unwrap();
+    let text = std::fs::read_to_string(&out).unwrap();
+    assert!(text.starts_with("<svg ") && text.contains("retained of 5 mm, %"));
+    // 1, 0.5 and 0.25 at the start, the middle and the end of both runs.
+    assert_eq!(text.matches("d=\"M58.0 16.0L339.0 204.0L620.0 298.0\"").count(), 2, "{text}");
+    for folder in &folders {
+        assert!(text.contains(folder.file_name().unwrap().to_str().unwrap()));
+    }
+    let said = page::drawing(&folders, "6 mm", &out).unwrap_err().to_string();
+    assert!(said.contains("`6 mm`") && said.contains("total, 5 mm, 10 mm"), "{said}");
+    assert!(matches!(page::drawing(&[], "total", &out), Err(PageError::Nothing)));
+}
+
+#[test]
 fn the_same_folder_gives_the_same_page() {
     let folder = whole();
     let (first, _) = report(&folder);

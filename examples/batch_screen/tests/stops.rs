@@ -118,6 +118,18 @@ fn until(folder: &Path, args: &[&str], wanted: &str) -> (Child, impl BufRead + u
 }
 
 #[test]
+fn a_bed_that_is_not_at_rest_in_time_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let quick = ["--set", "packing.settle_at_most=0.11"];
+    let done = faulty(folder.path(), "moving", &quick);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(text(&done.stderr).contains("still moves after 0.11 s"));
+    let done = faulty(folder.path(), "settled", &["--set", "packing.settle_at_most=2"]);
+    assert!(!text(&done.stderr).contains("still moves"), "{}", text(&done.stderr));
+}
+
+#[test]
 fn a_bed_that_settles_can_be_stopped_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let run = ["run", "demo", "--beds", "beds"];

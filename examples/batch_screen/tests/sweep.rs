@@ -199,6 +199,17 @@ fn bad_sweeps_say_where_and_what_is_allowed_before_anything_runs() {
 }
 
 #[test]
+fn a_seed_that_a_row_sets_stands_in_the_column_of_seeds() {
+    let folder = folder("scene = \"small.toml\"\ntime = 0.001\n[[rows]]\nname = \"a\"\nseed = 7\n");
+    let done = run(folder.path(), &["sweep", "s.toml", "--gather"]);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let header = fs::read_to_string(folder.path().join("out/s/sweep.csv")).unwrap();
+    let header: Vec<&str> = header.lines().next().unwrap().split(',').collect();
+    assert_eq!(header.iter().filter(|name| **name == "seed").count(), 1, "{header:?}");
+    assert_eq!(table(folder.path())["a"]["seed"], "7");
+}
+
+#[test]
 fn the_sample_is_a_good_sweep() {
     let folder = folder("");
     let wrote = run(folder.path(), &["sample", "--sweep", "mine.toml"]);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
-use pendular::dem::DVec3;
+use pendular::dem::{DVec3, Implicit};
 
 /// Measures the speed of whole scenes.
 ///
@@ -40,6 +40,12 @@ struct Cli {
     /// Screen wires as prisms of triangles with this many sides instead of exact cylinders.
     #[arg(long, value_name = "SIDES")]
     mesh: Option<u32>,
+    /// Solves for dashpots and drags at the end of the step (wet scenes).
+    #[arg(long)]
+    implicit: bool,
+    /// Viscosity of the liquid, Pa s.
+    #[arg(long, default_value_t = scene::VISCOSITY)]
+    viscosity: f64,
     /// Skin of the outer neighbour lists, m.
     #[arg(long)]
     skin: Option<f64>,
@@ -108,9 +114,14 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
     let mut settings = scene::settings(cli.threads);
     (settings.skin, settings.inner_skin) = (cli.skin, cli.inner_skin);
     let result = if cli.scene.is_wet() {
-        let wet = scene::wet(&bed, &walls.0)?;
+        let wet = scene::wet(&bed, &walls.0, cli.viscosity)?;
         let term = (scene::contact(bed.particles.classes())?, wet);
-        measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
+        if cli.implicit {
+            let term = Implicit::new(term);
+            measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
+        } else {
+            measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
+        }
     } else {
         let term = scene::contact(bed.particles.classes())?;
         measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?

@@ -41,12 +41,12 @@ pub(crate) fn run<T: PairTerm>(
             overlap -= encounter.gap;
         }
     });
-    let n = simulation.particles().len();
+    let (n, passes) = (simulation.particles().len(), simulation.passes());
     let part = |a: std::time::Duration, b: std::time::Duration| (a - b).as_secs_f64();
     let check = format!(
         "kinetic energy {:.6e} J, mean overlap {:.4e} m, mean coordination {:.4}, pairs held {}\n\
          neighbours {:.3} s ({} builds, {} prunes), pairs {:.3} s, walls {:.3} s, settling {:.3} s, \
-         integration {:.3} s",
+         integration {:.3} s, resistance {:.3} s, {:.2} passes a step",
         simulation.particles().kinetic_energy(),
         overlap / contacts.max(1) as f64,
         2.0 * contacts as f64 / n as f64,
@@ -58,6 +58,8 @@ pub(crate) fn run<T: PairTerm>(
         part(after.walls, before.walls),
         part(after.settling, before.settling),
         part(after.integration, before.integration),
+        part(after.resistance, before.resistance),
+        passes.passes as f64 / passes.steps.max(1) as f64,
     );
     let centres = centres(&simulation);
     Ok(Measured { particles: n, seconds, memory, check, centres })

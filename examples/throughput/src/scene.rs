@@ -180,11 +180,14 @@ pub(crate) fn settings(threads: usize) -> Settings {
     Settings { threads, ..Settings::new(TIME_STEP) }
 }
 
+/// Viscosity of water, Pa s.
+pub(crate) const VISCOSITY: f64 = 1e-3;
+
 /// The liquid term of the wet scenes.
 pub(crate) type Water = Wet<Lambert2008, Pitois2000, Popov2010>;
 
 /// Water of 5 % of the solid mass as a film of one thickness on every sphere.
-pub(crate) fn wet(bed: &Bed, walls: &Walls) -> Result<Water, WetError> {
+pub(crate) fn wet(bed: &Bed, walls: &Walls, viscosity: f64) -> Result<Water, WetError> {
     let classes = bed.particles.classes();
     let near = Regularisation::default();
     let laws = PairLaws {
@@ -197,7 +200,7 @@ pub(crate) fn wet(bed: &Bed, walls: &Walls) -> Result<Water, WetError> {
     let angle = 40_f64.to_radians();
     let liquid = Liquid {
         surface_tension: 0.07275,
-        viscosity: 1e-3,
+        viscosity,
         density: 1000.0,
         particle_angles: vec![angle],
         wall_angles: vec![angle],

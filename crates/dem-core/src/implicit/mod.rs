@@ -7,7 +7,7 @@ mod term;
 
 use glam::DVec3;
 
-pub(crate) use link::{Between, Change, Link};
+pub(crate) use link::{Body, Change, Inverse, Kept, Links, Met, Two};
 pub use term::Implicit;
 
 /// What resists the relative motion of a pair, for [`Implicit`].
@@ -39,6 +39,7 @@ impl std::ops::Add for Resist {
     type Output = Self;
 
     /// Both resist together. A clearance of the part without drag says nothing.
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let clearance = match (self.drag > 0.0, other.drag > 0.0) {
             (true, false) => self.clearance,

@@ -59,6 +59,7 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
     const LANES: bool = T::LANES;
     const COUPLES: bool = T::COUPLES;
     const SETTLES: bool = T::SETTLES;
+    const ACTS_IN_OVERLAP: bool = T::ACTS_IN_OVERLAP;
     const IMPLICIT: bool = true;
 
     #[inline(always)]
@@ -104,15 +105,22 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
     }
 
     fn stability(&self, classes: &[Class]) -> Vec<limit::Load> {
-        self.0.stability(classes).into_iter().map(springs).collect()
+        self.0.stability(classes).into_iter().map(limit::Load::resisted_implicitly).collect()
     }
 
     fn load_on_limit(&self, pair: &Pair, column: &Self::Column) -> limit::Load {
-        springs(self.0.load_on_limit(pair, &column.0))
+        self.0.load_on_limit(pair, &column.0).resisted_implicitly()
     }
 
-    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
-        self.0.resist(pair, &column.0, gap)
+    #[inline(always)]
+    fn resist(
+        &self,
+        encounter: &Encounter,
+        classes: [u16; 2],
+        column: &Self::Column,
+        gap: f64,
+    ) -> Resist {
+        self.0.resist(encounter, classes, &column.0, gap)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
@@ -122,9 +130,4 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
     fn impulse<'a>(&self, column: &'a mut Self::Column) -> Option<&'a mut Impulse> {
         Some(&mut column.1)
     }
-}
-
-/// What stays explicit.
-fn springs(load: limit::Load) -> limit::Load {
-    limit::Load { normal_damping: 0.0, normal_drag: 0.0, tangential_drag: 0.0, ..load }
 }

@@ -10,11 +10,11 @@ use rayon::prelude::*;
 
 use super::{Simulation, parallel};
 use crate::chunk::{Chunk, List};
-use crate::implicit::{Between, Change, Link, Passes};
+use crate::implicit::{Body, Change, Inverse, Kept, Links, Met, Passes, Two};
 use crate::integrate::{Moved, drift};
-use crate::particles::{Class, Velocity};
-use crate::pass::View;
-use crate::{Boundary, DVec3, Encounter, Pair, PairTerm, wall_pass};
+use crate::particles::{Row, Velocity};
+use crate::view::View;
+use crate::{Boundary, DVec3, Encounter, PairTerm, wall_pass};
 
 /// Passes stop when they change the impulses by less than this share of them.
 const SETTLED: f64 = 1e-3;
@@ -33,16 +33,24 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let start = Instant::now();
         self.before.clone_from(&self.particles.velocities);
         self.integrate(kick, 0.0);
-        self.gather(kick);
         self.profile.integration += start.elapsed();
         let start = Instant::now();
-        if self.chunks.iter().any(|c| !c.links.is_empty() || !c.links_across.is_empty()) {
+        self.gather(kick, h);
+        if self.chunks.iter().any(|c| !c.links.links.is_empty() || !c.links_across.links.is_empty())
+        {
             self.meet_walls(h);
             self.warm();
             self.relax();
             self.close(h);
         }
         self.profile.resistance += start.elapsed();
+        let start = Instant::now();
+        let moved = self.drift(h);
+        self.profile.integration += start.elapsed();
+        moved
+    }
+
+    fn drift(&mut self, h: f64) -> Moved {
         let Self { chunks, particles, lists, settings, .. } = self;
         let (places, velocities) = (&mut particles.places, &particles.velocities);
         let size = lists.chunk_size;
@@ -57,14 +65,16 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// Every pair that resists, with the velocities before and after the kick.
-    fn gather(&mut self, duration: f64) {
+    fn gather(&mut self, duration: f64, drift: f64) {
         let mut chunks = std::mem::take(&mut self.chunks);
         let mut view = self.view();
         view.velocities = &self.before;
-        let kicked = &self.particles.velocities;
         let (term, boundary) = (&self.term, &self.boundary);
+        let inverse = Inverse { classes: &self.inverse, class: &self.particles.class };
+        let kicked = &self.particles.velocities;
+        let times = [duration, drift];
+        let gathering = Gathering { view: &view, kicked, term, inverse, times };
         super::each(&mut chunks, |chunk| {
-            let gathering = Gathering { view: &view, kicked, term, duration };
             gathering.pairs(chunk);
             gathering.walls(chunk, boundary);
         });
@@ -75,56 +85,65 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn meet_walls(&mut self, h: f64) {
         let time = self.time();
         self.boundary.move_to(time, time + 0.5 * h);
+        let boundary = &self.boundary;
         for chunk in &mut self.chunks {
-            let Chunk { links, walls, .. } = chunk;
-            for link in links.iter_mut().filter(|link| matches!(link.list, List::Wall { .. })) {
-                link.wall = self.boundary.velocity(walls[link.index as usize].part);
-            }
+            let walls = &chunk.walls;
+            chunk.links.meet_walls(|index| boundary.velocity(walls[index as usize].part));
         }
     }
 
     /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
     /// best multiple of them as a guess of this step's.
     fn warm(&mut self) {
-        let velocities = &mut self.particles.velocities;
-        let size = self.lists.chunk_size;
-        let pushed = &mut self.before;
-        pushed.fill(Velocity { v: DVec3::ZERO, w: DVec3::ZERO });
-        let mut sums = [0.0; 2];
-        for (chunk, first) in self.chunks.iter().zip((0..).step_by(size)) {
-            for link in &chunk.links {
-                let [along, own] =
-                    with(&link.wall, velocities, link.slots, |p, q| link.start([p, q]));
-                sums = [sums[0] + along, sums[1] + own];
-                with(&DVec3::ZERO, pushed, link.slots, |p, q| link.push([p, q]));
-            }
-            debug_assert!(first <= pushed.len());
-            for link in &chunk.links_across {
-                let [along, own] =
-                    with(&link.wall, velocities, link.slots, |p, q| link.start([p, q]));
-                sums = [sums[0] + along, sums[1] + own];
-                with(&DVec3::ZERO, pushed, link.slots, |p, q| link.push([p, q]));
+        let Self { chunks, particles, before: pushed, inverse, lists, settings, .. } = self;
+        let inverse = Inverse { classes: inverse, class: &particles.class };
+        let velocities = &mut particles.velocities;
+        pushed.fill(Velocity::new(DVec3::ZERO, DVec3::ZERO));
+        let size = lists.chunk_size;
+        let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
+        let one = |(chunk, pushed): (&Chunk<T::Column>, &mut [Velocity])| {
+            let Chunk { links, range, .. } = chunk;
+            (0..links.links.len()).fold([0.0; 2], |sums, k| {
+                let slots = links.links[k].slots;
+                let two = take(velocities, slots, 0, links.wall(&links.links[k]));
+                let mut push = take(pushed, slots, range.start, DVec3::ZERO);
+                let own = links.start(k, &two, &mut push, inverse);
+                put(pushed, slots, range.start, push);
+                add(sums, own)
+            })
+        };
+        let inside: Vec<[f64; 2]> = if parallel(chunks.len(), settings.threads) {
+            chunks.par_iter().zip(pushed.par_chunks_mut(size)).map(one).collect()
+        } else {
+            chunks.iter().zip(pushed.chunks_mut(size)).map(one).collect()
+        };
+        let mut sums = inside.into_iter().fold([0.0; 2], add);
+        for links in chunks.iter().map(|chunk| &chunk.links_across) {
+            for (k, link) in links.links.iter().enumerate() {
+                let two = take(velocities, link.slots, 0, DVec3::ZERO);
+                let mut push = take(pushed, link.slots, 0, DVec3::ZERO);
+                sums = add(sums, links.start(k, &two, &mut push, inverse));
+                put(pushed, link.slots, 0, push);
             }
         }
-        let classes = self.particles.classes();
         let moved: f64 = pushed
             .iter()
-            .zip(&self.particles.class)
+            .zip(&particles.class)
             .map(|(d, &class)| {
-                let class = &classes[usize::from(class)];
-                class.mass() * d.v.length_squared() + class.inertia() * d.w.length_squared()
+                let [m, i] = inverse.classes[usize::from(class)];
+                d.v.vector().length_squared() / m + d.w.vector().length_squared() / i
             })
             .sum();
         let below = moved + sums[1];
         let share = if below > 0.0 { (-sums[0] / below).clamp(0.0, 1.0) } else { 0.0 };
-        let velocities = &mut self.particles.velocities;
-        for (velocity, push) in velocities.iter_mut().zip(pushed.iter()) {
-            velocity.v += share * push.v;
-            velocity.w += share * push.w;
+        for (velocity, push) in particles.velocities.iter_mut().zip(pushed.iter()) {
+            let (v, w) = (push.v.vector(), push.w.vector());
+            velocity.v.add(Row::new(share * v).0);
+            velocity.w.add(Row::new(share * w).0);
         }
-        for chunk in &mut self.chunks {
-            let links = chunk.links.iter_mut().chain(&mut chunk.links_across);
-            links.for_each(|link| link.scale(share));
+        for chunk in chunks {
+            chunk.links.scale(share);
+            chunk.links_across.scale(share);
         }
     }
 
@@ -148,10 +167,18 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn relax_inside(&mut self, forward: bool) -> Change {
-        let Self { chunks, particles, term, lists, settings, .. } = self;
+        let Self { chunks, particles, term, lists, settings, inverse, .. } = self;
+        let inverse = Inverse { classes: inverse, class: &particles.class };
         let term = &*term;
         let one = |(chunk, velocities): (&mut Chunk<T::Column>, &mut [Velocity])| {
-            relax_chunk(term, chunk, velocities, forward)
+            let Chunk { links, inside, walls, range, .. } = chunk;
+            let column = |kept: &Kept| match kept.list {
+                List::Wall { memory } => {
+                    &walls[kept.index as usize].memories[memory as usize].column
+                }
+                _ => &inside.columns[kept.index as usize],
+            };
+            pass(term, links, column, velocities, range.start, inverse, forward)
         };
         let velocities = &mut particles.velocities;
         let changes: Vec<Change> = if parallel(chunks.len(), settings.threads) {
@@ -165,100 +192,91 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn relax_across(&mut self, forward: bool) -> Change {
-        let Self { chunks, particles, term, .. } = self;
-        let mut change = Change::default();
+        let Self { chunks, particles, term, inverse, .. } = self;
+        let inverse = Inverse { classes: inverse, class: &particles.class };
+        let velocities = &mut particles.velocities[..];
         let mut one = |chunk: &mut Chunk<T::Column>| {
             let Chunk { links_across, across, .. } = chunk;
-            let mut visit = |link: &mut Link| {
-                let column = &across.columns[link.index as usize];
-                let charge = |gap| term.charge(column, gap);
-                let (slots, wall) = (link.slots, link.wall);
-                let velocities = &mut particles.velocities;
-                change = change + with(&wall, velocities, slots, |p, q| link.relax([p, q], charge));
-            };
-            if forward {
-                links_across.iter_mut().for_each(&mut visit);
-            } else {
-                links_across.iter_mut().rev().for_each(&mut visit);
-            }
+            let column = |kept: &Kept| &across.columns[kept.index as usize];
+            pass(term, links_across, column, velocities, 0, inverse, forward)
         };
+        let change = Change::default();
         if forward {
-            chunks.iter_mut().for_each(&mut one);
+            chunks.iter_mut().fold(change, |change, chunk| change + one(chunk))
         } else {
-            chunks.iter_mut().rev().for_each(&mut one);
+            chunks.iter_mut().rev().fold(change, |change, chunk| change + one(chunk))
         }
-        change
     }
 
     /// Writes the impulses back to the columns of the pairs.
     fn close(&mut self, drift: f64) {
         let Self { chunks, particles, term, .. } = self;
-        let velocities = &mut particles.velocities;
-        for chunk in chunks {
-            for across in [false, true] {
-                let links = if across { &mut chunk.links_across } else { &mut chunk.links };
-                let mut links = std::mem::take(links);
-                for link in &mut links {
-                    let (slots, wall) = (link.slots, link.wall);
-                    with(&wall, velocities, slots, |p, q| link.close([p, q], drift));
-                    let column = chunk.column(link.list, link.index);
+        let (term, velocities) = (&*term, &particles.velocities);
+        super::each(chunks, |chunk| {
+            let Chunk { links, links_across, inside, across, walls, .. } = chunk;
+            for (links, list) in [(links, inside), (links_across, across)] {
+                for (k, link) in links.links.iter().enumerate() {
+                    let kept = links.kept[k];
+                    let two = take(velocities, link.slots, 0, links.wall(link));
+                    let index = kept.index as usize;
+                    let column = match kept.list {
+                        List::Wall { memory } => &mut walls[index].memories[memory as usize].column,
+                        _ => &mut list.columns[index],
+                    };
                     if let Some(impulse) = term.impulse(column) {
-                        *impulse = link.impulse;
+                        *impulse = links.close(k, &two, drift);
                     }
                 }
-                *(if across { &mut chunk.links_across } else { &mut chunk.links }) = links;
             }
-        }
+        });
     }
 }
 
-/// Calls `act` with the two bodies of a link; a wall stands in for the second where both slots are
-/// the same.
+/// The two bodies of a link, a wall in the place of the second where both slots are the same.
 #[inline(always)]
-fn with<R>(
-    wall: &DVec3,
-    velocities: &mut [Velocity],
-    [a, b]: [u32; 2],
-    act: impl FnOnce(&mut Velocity, &mut Velocity) -> R,
-) -> R {
-    let (a, b) = (a as usize, b as usize);
-    let mut p = velocities[a];
-    if a == b {
-        let mut still = Velocity { v: *wall, w: DVec3::ZERO };
-        let result = act(&mut p, &mut still);
-        velocities[a] = p;
-        return result;
-    }
-    let mut q = velocities[b];
-    let result = act(&mut p, &mut q);
-    (velocities[a], velocities[b]) = (p, q);
-    result
+fn take(velocities: &[Velocity], [a, b]: [u32; 2], start: u32, wall: DVec3) -> Two {
+    let body = |slot: u32| Body::from(velocities[(slot - start) as usize]);
+    let second = if a == b { Body { v: wall, w: DVec3::ZERO } } else { body(b) };
+    Two { first: body(a), second }
 }
 
-fn relax_chunk<T: PairTerm>(
-    term: &T,
-    chunk: &mut Chunk<T::Column>,
-    velocities: &mut [Velocity],
-    forward: bool,
-) -> Change {
-    let Chunk { links, inside, walls, range, .. } = chunk;
-    let mut change = Change::default();
-    let mut visit = |link: &mut Link| {
-        let index = link.index as usize;
-        let column = match link.list {
-            List::Wall { memory } => &walls[index].memories[memory as usize].column,
-            _ => &inside.columns[index],
-        };
-        let slots = link.slots.map(|slot| slot - range.start);
-        let wall = link.wall;
-        let charge = |gap| term.charge(column, gap);
-        change = change + with(&wall, velocities, slots, |p, q| link.relax([p, q], charge));
+#[inline(always)]
+fn put(velocities: &mut [Velocity], [a, b]: [u32; 2], start: u32, two: Two) {
+    let mut set = |slot: u32, body: Body| {
+        velocities[(slot - start) as usize] = Velocity::new(body.v, body.w);
     };
-    if forward {
-        links.iter_mut().for_each(&mut visit);
-    } else {
-        links.iter_mut().rev().for_each(&mut visit);
+    if a != b {
+        set(b, two.second);
     }
+    set(a, two.first);
+}
+
+/// One pass over a list.
+fn pass<'a, T: PairTerm>(
+    term: &T,
+    links: &mut Links,
+    column: impl Fn(&Kept) -> &'a T::Column,
+    velocities: &mut [Velocity],
+    start: u32,
+    inverse: Inverse<'_>,
+    forward: bool,
+) -> Change
+where
+    T::Column: 'a,
+{
+    let count = links.links.len();
+    let mut change = Change::default();
+    for n in 0..count {
+        let k = if forward { n } else { count - 1 - n };
+        let (slots, wall) = (links.links[k].slots, links.wall(&links.links[k]));
+        let mut two = take(velocities, slots, start, wall);
+        let search = |kept: &Kept, speed: f64, now: f64| {
+            kept.search(speed, now, |gap| term.charge(column(kept), gap))
+        };
+        change = change + links.relax(k, &mut two, inverse, search);
+        put(velocities, slots, start, two);
+    }
+    links.share = 1.0;
     change
 }
 
@@ -267,35 +285,37 @@ struct Gathering<'a, T> {
     view: &'a View<'a>,
     kicked: &'a [Velocity],
     term: &'a T,
-    duration: f64,
+    inverse: Inverse<'a>,
+    /// Duration of the impulses, and of the drift after them, s.
+    times: [f64; 2],
 }
 
 impl<T: PairTerm> Gathering<'_, T> {
+    /// The pairs of particles that acted in the read half.
     fn pairs(&self, chunk: &mut Chunk<T::Column>) {
-        let (view, term) = (self.view, self.term);
-        let Chunk { inside, across, links, links_across, range, .. } = chunk;
-        links.clear();
-        links_across.clear();
-        for (kind, list, links) in
-            [(List::Inside, inside, links), (List::Across, across, links_across)]
-        {
-            let pairs = list.active.iter().zip(&mut list.columns).enumerate();
-            for (index, (&entry, column)) in pairs {
-                if !range.contains(&entry[0]) || term.idle(&view.meet(entry), column) {
-                    continue;
-                }
-                let pair = view.pairs::<f64, false>((), [entry], false).pair(0);
-                let [p, q] = entry.map(|slot| &self.kicked[slot as usize]);
-                let classes = entry.map(|slot| Some(self.class(slot)));
-                let between = Between { slots: entry, classes, list: kind, index: index as u32 };
-                links.extend(self.link(&between, &pair, column, p.v - q.v));
+        let view = self.view;
+        let Chunk { inside, across, links, links_across, .. } = chunk;
+        for (list, links) in [(inside, links), (across, links_across)] {
+            links.clear();
+            let met = std::mem::take(&mut links.met);
+            for met in &met {
+                let [a, b] = met.slots.map(|slot| slot as usize);
+                let encounter = view.encounter(met.slots, met.gap);
+                let classes = [view.class[a], view.class[b]];
+                let column = &mut list.columns[met.index as usize];
+                let both = |of: &[Velocity]| Two { first: of[a].into(), second: of[b].into() };
+                let (before, kicked) = (both(view.velocities), both(self.kicked));
+                let radii = [view.places[a].r, view.places[b].r];
+                self.link(links, met, &encounter, classes, column, [&before, &kicked], radii);
             }
+            links.met = met;
         }
     }
 
     fn walls<B: Boundary>(&self, chunk: &mut Chunk<T::Column>, boundary: &B) {
         let (view, term) = (self.view, self.term);
         let Chunk { walls, links, .. } = chunk;
+        links.walls_from = links.links.len();
         let there = walls.iter_mut().enumerate().filter(|(_, w)| boundary.is_present(w.part));
         for (index, wall) in there {
             for k in 0..wall.memories.len() {
@@ -310,31 +330,45 @@ impl<T: PairTerm> Gathering<'_, T> {
                 let before = touch.normal;
                 let pair =
                     wall_pass::pair::<B, false>(view, boundary, slot, encounter, &touch, before);
-                let kicked = self.kicked[slot as usize].v - boundary.velocity(part);
-                let classes = [Some(self.class(slot)), None];
-                let list = List::Wall { memory: k as u32 };
-                let between = Between { slots: [slot; 2], classes, list, index: index as u32 };
-                links.extend(self.link(&between, &pair, column, kicked));
+                let met = Met {
+                    slots: [slot; 2],
+                    list: List::Wall { memory: k as u32 },
+                    index: index as u32,
+                    normal: pair.normal,
+                    levers: pair.levers,
+                    gap: touch.gap,
+                    rate: pair.separation_speed,
+                    slip: pair.slip,
+                };
+                let second = Body { v: boundary.velocity(part), w: DVec3::ZERO };
+                let of = |all: &[Velocity]| Two { first: all[slot as usize].into(), second };
+                let (before, kicked) = (of(view.velocities), of(self.kicked));
+                let classes = [pair.first_class, pair.second_class];
+                let both = [&before, &kicked];
+                self.link(links, &met, &encounter, classes, column, both, pair.radii);
             }
         }
     }
 
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "one loop body in two places")]
     fn link(
         &self,
-        between: &Between<'_>,
-        pair: &Pair,
+        links: &mut Links,
+        met: &Met,
+        encounter: &Encounter,
+        classes: [u16; 2],
         column: &mut T::Column,
-        kicked: DVec3,
-    ) -> Option<Link> {
-        let impulse = *self.term.impulse(column)?;
+        velocities: [&Two; 2],
+        radii: [f64; 2],
+    ) {
+        let Some(&mut impulse) = self.term.impulse(column) else { return };
         // The middle of what the gap is expected to be charged for in this step.
-        let gap = if impulse.charged.is_finite() { impulse.charged } else { pair.encounter.gap };
-        let gap = gap + 0.5 * self.duration * pair.separation_speed;
-        let resist = self.term.resist(pair, column, gap);
-        resist.any().then(|| Link::new(between, pair, &resist, impulse, kicked, self.duration))
-    }
-
-    fn class(&self, slot: u32) -> &Class {
-        &self.view.classes[usize::from(self.view.class[slot as usize])]
+        let gap = if impulse.charged.is_finite() { impulse.charged } else { met.gap };
+        let gap = gap + 0.5 * self.times[0] * met.rate;
+        let resist = self.term.resist(encounter, classes, column, gap);
+        if resist.any() {
+            links.add(met, &resist, &impulse, velocities, self.inverse, self.times, radii);
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::{Settings, Simulation, each};
-use crate::chunk::{Chunk, Memory, WallPair};
+use crate::chunk::{Chunk, Memories, WallPair};
 use crate::grid::Grids;
 use crate::lists;
 use crate::order::chunk_size;
@@ -219,7 +219,7 @@ pub(super) struct Carried<C> {
 }
 
 /// A wall pair on its way: the particle's id, the part, memories, candidates.
-pub(super) type CarriedWall<C> = (u32, u32, Vec<Memory<C>>, Vec<u32>);
+pub(super) type CarriedWall<C> = (u32, u32, Memories<C>, Vec<u32>);
 
 impl<C: Copy + Default + Send + Sync> Carried<C> {
     pub(super) fn collect<T: PairTerm<Column = C>, B>(

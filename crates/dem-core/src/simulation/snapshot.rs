@@ -147,7 +147,7 @@ impl Particles {
                 });
             }
             self.places.push(Place { x: position, r });
-            self.velocities.push(Velocity { v: velocity, w: spin });
+            self.velocities.push(Velocity::new(velocity, spin));
             self.class.push(class);
             self.id.push(id);
         }

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::limit::{Hold, Limit};
-use crate::pass::View;
+use crate::view::View;
 use crate::{Boundary, Encounter, Pair, PairTerm, Partner, wall_pass};
 
 impl<T: PairTerm, B: Boundary> Simulation<T, B> {
@@ -70,11 +70,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn pair(&self, view: &View<'_>, entry: crate::lists::Entry) -> Pair {
-        if self.rolls.is_empty() {
-            view.pairs::<f64, false>((), [entry], false).pair(0)
-        } else {
-            view.pairs::<f64, true>((), [entry], false).pair(0)
-        }
+        if self.rolls.is_empty() { view.pair::<false>(entry) } else { view.pair::<true>(entry) }
     }
 
     fn wall_pair(

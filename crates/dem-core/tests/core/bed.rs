@@ -50,7 +50,8 @@ impl Tray {
         Self { half, amplitude: 0.0, frequency: 0.0, height: 0.0, speed: 0.0 }
     }
 
-    fn plane(&self, part: u32) -> (DVec3, f64) {
+    /// Normal and offset of a part.
+    pub(crate) fn plane(&self, part: u32) -> (DVec3, f64) {
         let half = self.half.unwrap_or(0.0);
         match part {
             0 => (DVec3::Z, self.height),

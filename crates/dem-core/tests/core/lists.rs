@@ -2,19 +2,26 @@
 
 use std::collections::BTreeSet;
 
-use pendular_dem_core::Partner;
+use pendular_dem_core::{Boundary, Partner};
 
 use crate::bed::{RUB, shaken};
 
 #[test]
-fn lists_hold_every_contact_of_a_violently_shaken_bed() {
+fn lists_hold_every_contact_of_a_violently_shaken_bed_and_its_walls() {
     let mut simulation = shaken(5, |_| (), RUB);
-    for round in 0..200 {
-        simulation.advance(50).unwrap();
+    let mut touched = 0;
+    for round in 0..1_000 {
+        simulation.advance(10).unwrap();
         let mut listed = BTreeSet::new();
         simulation.for_each_pair(|encounter, _| {
             if let Partner::Particle(second) = encounter.second {
                 assert!(listed.insert((encounter.first, second)), "listed twice");
+            }
+        });
+        let mut at_walls = BTreeSet::new();
+        simulation.survey(|pair, _| {
+            if let Partner::Wall(part) = pair.encounter.second {
+                assert!(at_walls.insert((pair.encounter.first, part)), "listed twice");
             }
         });
         // The lists serve the read at the next step; what touches now touches there too, but for
@@ -31,6 +38,20 @@ fn lists_hold_every_contact_of_a_violently_shaken_bed() {
                 }
             }
         }
+        let drift = (1.0 + simulation.boundary().speed_bound()) * 5e-6;
+        for particle in &particles {
+            for part in 0..5 {
+                let (normal, offset) = simulation.boundary().plane(part);
+                let gap = particle.position.dot(normal) - offset - radius(particle.class);
+                if gap < -drift {
+                    touched += 1;
+                    let key = (particle.id, part);
+                    assert!(at_walls.contains(&key), "round {round}: wall {key:?} at {gap:e}");
+                }
+            }
+        }
     }
+    assert!(touched > 100, "walls are hit: {touched}");
+    assert_eq!(simulation.step(), 10_000);
     assert!(simulation.profile().builds > 5);
 }

@@ -9,7 +9,7 @@ use pendular_lubrication::{NormalCurve, Resistance, TangentialCurve};
 use super::shelf::Far;
 
 /// The forces of one bridge at one gap, before any velocity is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pull {
     /// Capillary tension, N.
     tension: f64,
@@ -17,20 +17,11 @@ pub(super) struct Pull {
     drag: f64,
     /// Drag across it, N s/m, before the fade.
     resistance: Resistance,
-    /// In overlap drags fade by exp of this times the gap, 1/m; negative where that is not so and
-    /// the curves have to be asked.
-    pub(super) fade: f64,
+    /// In overlap drags fade by exp of this times the gap, 1/m.
+    fade: f64,
 }
 
 impl Pull {
-    /// In place of the forces at contact where the curves have to be asked.
-    const UNKNOWN: Self = Self {
-        tension: 0.0,
-        drag: 0.0,
-        resistance: Resistance { slip: 0.0, coupling: 0.0, rolling: 0.0 },
-        fade: -1.0,
-    };
-
     /// What three curves give at a gap.
     #[inline(always)]
     pub(super) fn at(
@@ -45,13 +36,10 @@ impl Pull {
         }
     }
 
-    /// No bridge.
-    pub(super) const NONE: Self = Self { fade: 0.0, ..Self::UNKNOWN };
-
-    /// The forces at contact: all that overlap needs. [`Self::UNKNOWN`] if the curves do not fade alike.
+    /// The forces at contact: all that overlap needs. `None` if the curves do not fade alike.
     pub(super) fn contact(
         curves: &(impl ForceCurve, impl NormalCurve, impl TangentialCurve),
-    ) -> Self {
+    ) -> Option<Self> {
         let (normal, tangential) = (curves.1.fade(), curves.2.fade());
         let at = Self::at(curves, 0.0);
         // What is nothing at contact and fades is nothing in overlap: the other one decides.
@@ -62,8 +50,28 @@ impl Pull {
         } else {
             normal.filter(|_| normal == tangential)
         };
-        fade.map_or(Self::UNKNOWN, |fade| Self { fade, ..at })
+        fade.map(|fade| Self { fade, ..at })
     }
+
+    /// What most bridges have of it: tension, drag, slip resistance and fade, to be read at once.
+    pub(super) fn row(&self) -> Row {
+        Row([self.tension, self.drag, self.resistance.slip, self.fade])
+    }
+
+    /// What few have: coupling and rolling resistance.
+    pub(super) fn turning(&self) -> [f64; 2] {
+        [self.resistance.coupling, self.resistance.rolling]
+    }
+}
+
+/// The better part of a [`Pull`] at contact.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Row(pub(super) [f64; 4]);
+
+impl Row {
+    /// Where the curves have to be asked.
+    pub(super) const UNKNOWN: Self = Self([0.0, 0.0, 0.0, -1.0]);
 }
 
 /// The same of bridges side by side.
@@ -116,17 +124,20 @@ impl<L: Lane> Pulls<L> {
         }
     }
 
-    /// The same with drags that have faded in overlap.
+    /// Tension, and drags that have faded in overlap by exp of `exponent`.
     #[inline(always)]
-    pub(super) fn faded<P: Borrow<Pull>>(pulls: &L::Each<P>, exponent: L) -> Self {
-        let all = Self::pack(exponent.permit(), pulls);
+    pub(super) fn faded(
+        [tension, drag, slip]: [L; 3],
+        [coupling, rolling]: [L; 2],
+        exponent: L,
+    ) -> Self {
         let weight = fade(exponent);
         Self {
-            tension: all.tension,
-            drag: all.drag * weight,
-            slip: all.slip * weight,
-            coupling: all.coupling * weight,
-            rolling: all.rolling * weight,
+            tension,
+            drag: drag * weight,
+            slip: slip * weight,
+            coupling: coupling * weight,
+            rolling: rolling * weight,
         }
     }
 
@@ -176,28 +187,25 @@ fn fade<L: Lane>(exponent: L) -> L {
 /// 1e-17.
 #[inline(always)]
 fn series<L: Lane>(x: L) -> L {
-    const TERMS: [f64; 13] = [
-        1.0 / 6_227_020_800.0,
-        1.0 / 479_001_600.0,
-        1.0 / 39_916_800.0,
-        1.0 / 3_628_800.0,
-        1.0 / 362_880.0,
-        1.0 / 40_320.0,
-        1.0 / 5_040.0,
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-        1.0,
+    /// Of x^12, x^13 down to those of x^2, x^3: the two sums do not wait for each other.
+    const TERMS: [[f64; 2]; 6] = [
+        [1.0 / 479_001_600.0, 1.0 / 6_227_020_800.0],
+        [1.0 / 3_628_800.0, 1.0 / 39_916_800.0],
+        [1.0 / 40_320.0, 1.0 / 362_880.0],
+        [1.0 / 720.0, 1.0 / 5_040.0],
+        [1.0 / 24.0, 1.0 / 120.0],
+        [0.5, 1.0 / 6.0],
     ];
     let permit = x.permit();
     let x = x * L::splat(permit, 0.25);
-    let mut sum = L::splat(permit, TERMS[0]);
-    for &term in &TERMS[1..] {
-        sum = sum * x + L::splat(permit, term);
+    let square = x * x;
+    let [mut even, mut odd] = TERMS[0].map(|term| L::splat(permit, term));
+    for [of_even, of_odd] in &TERMS[1..] {
+        even = even * square + L::splat(permit, *of_even);
+        odd = odd * square + L::splat(permit, *of_odd);
     }
-    let root = sum * x + L::splat(permit, 1.0);
+    let one = L::splat(permit, 1.0);
+    let root = (x * (odd * square + one) + even * square) + one;
     let square = root * root;
     square * square
 }

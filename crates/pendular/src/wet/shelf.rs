@@ -5,7 +5,7 @@ use pendular_capillary::ForceCurve;
 use pendular_dem_core::{Columns, EachColumn, Lane, Pairs};
 use pendular_lubrication::{NormalCurve, TangentialCurve};
 
-use super::act::{Pull, Pulls};
+use super::act::{Pull, Pulls, Row};
 
 /// No bridge.
 const DRY: u32 = u32::MAX;
@@ -54,7 +54,9 @@ pub(super) struct Far<C, N, S> {
 
 /// The forces of all live bridges by their seats. In overlap only those at contact are looked at.
 pub(super) struct Shelf<C, N, S> {
-    contact: Vec<Pull>,
+    contact: Vec<Row>,
+    /// The other part of `contact`: none unless a bridge has such.
+    turning: Vec<[f64; 2]>,
     far: Vec<Far<C, N, S>>,
     free: Vec<u32>,
     /// Seats given out, taken or free.
@@ -63,7 +65,8 @@ pub(super) struct Shelf<C, N, S> {
 
 impl<C, N, S> Default for Shelf<C, N, S> {
     fn default() -> Self {
-        Self { contact: Vec::new(), far: Vec::new(), free: Vec::new(), seats: 0 }
+        let (contact, turning, far, free) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { contact, turning, far, free, seats: 0 }
     }
 }
 
@@ -79,12 +82,18 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     /// Puts there what acts in the bridge; new seats are taken in their order.
     pub(super) fn put(&mut self, seat: u32, far: Far<C, N, S>) {
         let contact = Pull::contact(&far.curves);
+        let turning = contact.map_or([0.0; 2], |pull| pull.turning());
+        let contact = contact.map_or(Row::UNKNOWN, |pull| pull.row());
         let seat = seat as usize;
         if seat < self.far.len() {
             (self.contact[seat], self.far[seat]) = (contact, far);
         } else {
             self.contact.push(contact);
             self.far.push(far);
+        }
+        if turning != [0.0; 2] || !self.turning.is_empty() {
+            self.turning.resize(self.far.len(), [0.0; 2]);
+            self.turning[seat] = turning;
         }
     }
 
@@ -115,15 +124,25 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
 
     #[inline(always)]
     fn overlapping<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
-        let mut all = true;
-        let pulls = L::each(|k| {
-            let pull = self.contact.get(seats[k]);
-            all &= pull.is_some();
-            pull.unwrap_or(&Pull::NONE)
-        });
-        let exponent = gap * L::pack(gap.permit(), &pulls, |pull| pull.fade);
-        (all && !L::splat(gap.permit(), 0.0).any_less(exponent))
-            .then(|| Pulls::faded(&pulls, exponent))
+        let permit = gap.permit();
+        let first = self.contact.get(seats[0])?;
+        let mut rows = L::each(|_| first);
+        for k in 1..L::WIDTH {
+            rows[k] = self.contact.get(seats[k])?;
+        }
+        let zero = L::splat(permit, 0.0);
+        let [tension, drag, slip, fade] = L::rows(permit, &rows, |row| row.0);
+        let exponent = gap * fade;
+        if zero.any_less(exponent) {
+            return None;
+        }
+        let mut turning = [zero; 2];
+        if !self.turning.is_empty() {
+            let of = |k: usize| self.turning.get(seats[k]).copied().unwrap_or_default();
+            let each = L::each(of);
+            turning = [0, 1].map(|side: usize| L::pack(permit, &each, |one| one[side]));
+        }
+        Some(Pulls::faded([tension, drag, slip], turning, exponent))
     }
 
     #[inline(always)]
@@ -200,8 +219,12 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             }
             self.contact.swap(new, old);
             self.far.swap(new, old);
+            if !self.turning.is_empty() {
+                self.turning.swap(new, old);
+            }
         }
         self.contact.truncate(live);
+        self.turning.truncate(live);
         self.far.truncate(live);
         self.free.clear();
         self.seats = live as u32;

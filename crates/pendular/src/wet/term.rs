@@ -159,7 +159,8 @@ where
         self.drags = false;
     }
 
-    fn resist(&self, _: &Pair, column: &Hold, gap: f64) -> Resist {
+    #[inline(always)]
+    fn resist(&self, _: &Encounter, _: [u16; 2], column: &Hold, gap: f64) -> Resist {
         let Some(far) = self.shelf.held(column) else { return Resist::default() };
         let (_, normal, tangential) = &far.curves;
         let across = tangential.resistance(gap);

@@ -10,14 +10,12 @@ use pendular::walls::{
 };
 
 use crate::error::SceneError;
-use crate::scene::{Housing, Packing, PartFile, Scene, WireKind};
+use crate::scene::{HarmonicTerm, Housing, Packing, PartFile, Scene, WireKind};
 
 /// The frame goes on this far below the wire axes, m.
 const SKIRT: f64 = 10e-3;
 /// Clearance between the frame and the housing around it, m.
 const CLEARANCE: f64 = 2e-3;
-/// Rows of liquid elements along the frame.
-const ROWS: u32 = 12;
 
 /// All walls during screening.
 pub(crate) fn walls(scene: &Scene, base: &Path) -> Result<Walls, SceneError> {
@@ -59,13 +57,15 @@ pub(crate) fn group(part: &str) -> &str {
 
 fn screen(scene: &Scene, motion: &Motion) -> Result<Vec<Part>, WallError> {
     let screen = &scene.screen;
+    let patches = screen.frame_elements;
     let (wires, frame) = match screen.wires {
-        WireKind::Cylinders => (Wires::Cylinders, FrameKind::Cylinder { patches: [36, ROWS] }),
+        WireKind::Cylinders => (Wires::Cylinders, FrameKind::Cylinder { patches }),
         WireKind::Mesh => (
             Wires::Prisms { sides: screen.wire_sides, fit: Fit::Circumscribed },
-            FrameKind::Prism { sides: 180, bands: ROWS },
+            FrameKind::Prism { sides: 180, bands: patches[1] },
         ),
     };
+    let pitch = screen.aperture_mm + screen.wire_diameter_mm;
     let sieve = Sieve {
         aperture: 1e-3 * screen.aperture_mm,
         wire_diameter: 1e-3 * screen.wire_diameter_mm,
@@ -74,7 +74,7 @@ fn screen(scene: &Scene, motion: &Motion) -> Result<Vec<Part>, WallError> {
         frame_top: 1e-3 * (screen.height_mm + 50.0),
         wires,
         frame,
-        element_length: 1e-3 * (screen.aperture_mm + screen.wire_diameter_mm),
+        element_length: 1e-3 * screen.wire_element_mm.unwrap_or(pitch),
     };
     let material = scene.material(&screen.material).unwrap_or_default();
     let parts = sieve.parts()?.into_iter();
@@ -89,17 +89,18 @@ fn bottom(scene: &Scene) -> f64 {
     }
 }
 
-/// One harmonic term per axis that moves.
+/// The sum of the scene's harmonic terms, each along every axis that it moves.
 fn motion(scene: &Scene) -> Motion {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let spec = &scene.motion;
-    let term = |axis: usize| Harmonic {
-        amplitude: 1e-3 * spec.amplitude_mm[axis] * axes[axis],
-        frequency: spec.frequency,
-        phase: spec.phase_deg[axis].to_radians(),
+    let along = |term: HarmonicTerm| {
+        let moving = (0..3).filter(move |&axis| term.amplitude_mm[axis] > 0.0);
+        moving.map(move |axis| Harmonic {
+            amplitude: 1e-3 * term.amplitude_mm[axis] * axes[axis],
+            frequency: term.frequency,
+            phase: term.phase_deg[axis].to_radians(),
+        })
     };
-    let moving = (0..3).filter(|&axis| spec.amplitude_mm[axis] > 0.0);
-    Motion { terms: moving.map(term).collect(), ramp: spec.ramp }
+    Motion { terms: scene.motion.all().flat_map(along).collect(), ramp: scene.motion.ramp }
 }
 
 /// The plate that falls towards +x, and the upright walls of the outlet on its other three sides.

@@ -59,12 +59,12 @@ pub(crate) fn place(
         }
         Packing::Random { solid_fraction, clearance_mm } => {
             let wire = 0.5 * scene.screen.wire_diameter_mm;
-            let bottom = 1e-3 * (wire + scene.motion.amplitude_mm[2] + clearance_mm);
+            let bottom = 1e-3 * (wire + scene.motion.reach_mm()[2] + clearance_mm);
             packing::random(&radii, &counts, &space(scene, bottom, *solid_fraction), scene.seed)
                 .map_err(|source| scene.at("packing.solid_fraction", source))
         }
         Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
-            let kept = source.beds.map(|beds| kept(scene, classes, &counts, beds));
+            let kept = source.beds.map(|beds| kept(scene, classes, &counts, time_step, beds));
             let lock = kept.as_deref().map(lock_of).unwrap_or_default();
             let _alone = lock.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(file) = kept.as_ref().filter(|file| file.exists()) {
@@ -127,15 +127,15 @@ fn counts(scene: &Scene, classes: &[Class]) -> Vec<u64> {
 }
 
 fn space(scene: &Scene, bottom: f64, solid_fraction: f64) -> Space {
-    let motion = &scene.motion.amplitude_mm;
+    let motion = scene.motion.reach_mm();
     let radius = 1e-3 * (0.5 * scene.screen.diameter_mm - motion[0].hypot(motion[1]));
     Space { radius, bottom, top: 1e-3 * scene.screen.height_mm, solid_fraction }
 }
 
 /// The file of a settled bed: its name is a hash of all that made it.
-fn kept(scene: &Scene, classes: &[Class], counts: &[u64], beds: &Path) -> PathBuf {
+fn kept(scene: &Scene, classes: &[Class], counts: &[u64], time_step: f64, beds: &Path) -> PathBuf {
     let made_of = format!(
-        "{:?} {classes:?} {counts:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{:?} {classes:?} {counts:?} {time_step:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
         scene.seed,
         scene.packing,

@@ -17,7 +17,7 @@ use pendular::{MeshWalls, Wet};
 
 pub(crate) use self::bed::Source;
 use crate::error::SceneError;
-use crate::scene::Scene;
+use crate::scene::{Drag, Scene};
 
 /// The liquid term of every scene: laws chosen at run time.
 pub(crate) type WetTerm = Wet<AnyCapillary, Option<AnyNormalDrag>, Option<AnyTangentialDrag>>;
@@ -47,6 +47,8 @@ pub(crate) struct Derived {
     pub(crate) liquid: f64,
     /// Class, by particle id.
     pub(crate) class: Vec<u16>,
+    /// Whether drags are solved for at the end of the step.
+    pub(crate) implicit: bool,
 }
 
 /// Builds a scene, its bed settled if it is to be.
@@ -85,7 +87,7 @@ fn around(
     let classes = particles.classes().to_vec();
     let contact = laws::contact(scene, &classes).map_err(|e| scene.at("contacts", e))?;
     let walls = apparatus::walls(scene, base)?;
-    let derived = derive(scene, &classes, class);
+    let mut derived = derive(scene, &classes, class);
     let wet = match &scene.liquid {
         Some(spec) => {
             let wet = laws::wet(scene, spec, &classes, &derived, &walls);
@@ -93,8 +95,36 @@ fn around(
         }
         None => None,
     };
-    let settings = settings(scene, &classes, &contact, wet.as_ref(), threads);
+    let loads = loads(&classes, &contact, wet.as_ref());
+    derived.implicit = is_implicit(scene, &classes, &loads);
+    let limit = Limit::packing(&classes, &resisted(loads, derived.implicit)).time_step;
+    let settings = settings(scene, limit, threads);
     Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
+}
+
+/// Whether the drags are to be implicit: as the scene says, or where they would limit the step more
+/// than the contacts do.
+fn is_implicit(scene: &Scene, classes: &[Class], loads: &[StabilityLoad]) -> bool {
+    match scene.liquid.as_ref().map(|liquid| liquid.drag) {
+        None | Some(Drag::Explicit) => false,
+        Some(Drag::Implicit) => true,
+        Some(Drag::Auto) => {
+            let rows = Limit::table(classes, loads);
+            let row = |term: &str| rows.iter().find(|row| row.term == term);
+            let (drag, contact) = (row("viscous drag"), row("contact springs and dashpots"));
+            let step = |row: Option<&Limit>| row.map_or(f64::INFINITY, |row| row.time_step);
+            step(drag) < step(contact)
+        }
+    }
+}
+
+/// What limits the step of the scheme.
+fn resisted(loads: Vec<StabilityLoad>, implicit: bool) -> Vec<StabilityLoad> {
+    if implicit {
+        loads.into_iter().map(StabilityLoad::resisted_implicitly).collect()
+    } else {
+        loads
+    }
 }
 
 fn classes(scene: &Scene) -> Result<Vec<Class>, SceneError> {
@@ -117,6 +147,7 @@ fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
     Derived {
         film: film_thickness(classes, &counts, liquid),
         class,
+        implicit: false,
         counts,
         masses,
         solid_mass,
@@ -147,15 +178,8 @@ fn film_thickness(classes: &[Class], counts: &[u64], liquid: f64) -> f64 {
 /// Share of the stability limit that a scene without a time step runs at.
 const SHARE: f64 = 0.5;
 
-fn settings(
-    scene: &Scene,
-    classes: &[Class],
-    contact: &Contact<Linear>,
-    wet: Option<&WetTerm>,
-    threads: usize,
-) -> Settings {
-    let limit = || Limit::packing(classes, &loads(classes, contact, wet)).time_step;
-    let step = scene.time_step.unwrap_or_else(|| SHARE * limit());
+fn settings(scene: &Scene, limit: f64, threads: usize) -> Settings {
+    let step = scene.time_step.unwrap_or(SHARE * limit);
     let around = 1e-3 * (0.5 * scene.screen.diameter_mm + scene.screen.wire_diameter_mm) + 5e-3;
     let (low, far) = apparatus::collection(scene);
     let top = 1e-3 * (scene.screen.height_mm + 50.0);
@@ -175,7 +199,8 @@ pub(crate) fn limit(built: &Built) -> Limit {
 
 /// The strongest pairs of each class of a built scene.
 pub(crate) fn loads_of(built: &Built) -> Vec<StabilityLoad> {
-    loads(built.particles.classes(), &built.contact, built.wet.as_ref())
+    let loads = loads(built.particles.classes(), &built.contact, built.wet.as_ref());
+    resisted(loads, built.derived.implicit)
 }
 
 fn loads(

@@ -76,10 +76,27 @@ pub(super) fn settle(
             return Err(SceneError::Settling { time: bed.time() });
         }
     }
+    let moving = motion(&bed, classes) / unit;
+    if how.tell && moving >= AT_REST {
+        eprintln!(
+            "the bed still moves after {:.2} s, the longest that packing.settle_at_most allows: \
+             its energy of motion is {moving:.1e} of that of a fall by one radius; it starts at rest",
+            bed.time()
+        );
+    }
     let mut all: Vec<_> = bed.particles().iter().collect();
     all.sort_by_key(|particle| particle.id);
     let placed = |p: &pendular::dem::Particle| Placed { class: p.class, position: p.position };
     Ok(all.iter().map(placed).collect())
+}
+
+/// Kinetic energy of the spheres' centres, J. A sphere that only spins about the upright has no
+/// part in it: no friction stops that, and the bed's positions do not feel it.
+fn motion(bed: &Bed, classes: &[Class]) -> f64 {
+    let one = |p: pendular::dem::Particle| {
+        0.5 * classes[usize::from(p.class)].mass() * p.velocity.length_squared()
+    };
+    bed.particles().iter().map(one).sum()
 }
 
 /// The bed as it was when its settling was stopped, or else the loose spheres.

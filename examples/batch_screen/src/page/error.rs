@@ -15,6 +15,8 @@ pub(crate) enum PageError {
     Summary { path: PathBuf, found: &'static str },
     #[error("{}, line {line}: {message}", path.display())]
     Csv { path: PathBuf, line: u64, message: String },
+    #[error("{}: no column `{column}` to draw; allowed: {allowed}", path.display())]
+    Column { path: PathBuf, column: String, allowed: String },
     #[error("a comparison needs at least one folder")]
     Nothing,
 }

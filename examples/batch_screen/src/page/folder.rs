@@ -144,6 +144,18 @@ impl Run {
         self.diameters = self.classes.iter().enumerate().map(find).collect();
     }
 
+    /// The columns of `retained.csv` that are shares: the total and every class.
+    pub(crate) fn shares(&self) -> Vec<&str> {
+        std::iter::once("total").chain(self.classes.iter().map(String::as_str)).collect()
+    }
+
+    /// Times, s, and one of those shares.
+    pub(crate) fn retained_over_time(&self, column: &str) -> Option<(&[f64], &[f64])> {
+        let (_, table) = self.tables.iter().find(|(name, _)| *name == "retained")?;
+        self.shares().contains(&column).then_some(())?;
+        Some((table.column("time_s")?, table.column(column)?))
+    }
+
     /// Everything for the page's program.
     pub(crate) fn json(&self) -> Value {
         let classes: Vec<Value> = self

@@ -5,6 +5,7 @@ mod embed;
 mod error;
 mod folder;
 mod replay;
+mod svg;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -64,6 +65,34 @@ pub(crate) fn report(folder: &Path) -> Result<PathBuf, PageError> {
 /// Where there is no folder, one lacks `summary.json` or `retained.csv`, a file is broken before its
 /// last line, or the page cannot be written.
 pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), PageError> {
+    let runs = several(folders)?;
+    let runs: Vec<&Run> = runs.iter().collect();
+    write(out, &page("compare", &format!("Comparison of {} runs", runs.len()), &runs))
+}
+
+/// Draws one column of `retained.csv` of several runs over time as a plain SVG at `out`.
+///
+/// # Errors
+///
+/// As [`compare`], and where a run has no such column.
+pub(crate) fn drawing(folders: &[PathBuf], column: &str, out: &Path) -> Result<(), PageError> {
+    let runs = several(folders)?;
+    let mut lines = Vec::new();
+    for (run, folder) in runs.iter().zip(folders) {
+        let missing = || PageError::Column {
+            path: folder.join("retained.csv"),
+            column: column.to_owned(),
+            allowed: run.shares().join(", "),
+        };
+        let (x, y) = run.retained_over_time(column).ok_or_else(missing)?;
+        lines.push(svg::Line { name: &run.name, x, y });
+    }
+    let of = if column == "total" { String::new() } else { format!(" of {column}") };
+    write(out, &svg::draw(&lines, &format!("retained{of}, %")))
+}
+
+/// Reads several runs, each with a name of its own.
+fn several(folders: &[PathBuf]) -> Result<Vec<Run>, PageError> {
     if folders.is_empty() {
         return Err(PageError::Nothing);
     }
@@ -78,8 +107,7 @@ pub(crate) fn compare(folders: &[PathBuf], out: &Path) -> Result<(), PageError> 
             run.name = folder.display().to_string();
         }
     }
-    let runs: Vec<&Run> = runs.iter().collect();
-    write(out, &page("compare", &format!("Comparison of {} runs", runs.len()), &runs))
+    Ok(runs)
 }
 
 fn page(kind: &str, title: &str, runs: &[&Run]) -> String {

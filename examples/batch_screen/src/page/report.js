@@ -237,9 +237,9 @@ function placesFigure(run) {
   if (!t || t.rows < 1) return null;
   const [x, y, of] = ['x_m', 'y_m', 'class'].map((name) => t.column(name));
   if (!x || !y || !of) return null;
-  const assumed = run.summary.assumptions || {};
+  const { diameter_mm: wide } = run.summary.screen || {};
   const reach = Math.max(...range([x, y]).map(Math.abs), 1e-6);
-  const screen = 0.5e-3 * assumed.screen_diameter_mm >= reach ? 0.5e-3 * assumed.screen_diameter_mm : 0;
+  const screen = 0.5e-3 * wide >= reach ? 0.5e-3 * wide : 0;
   const edge = 1.08 * Math.max(reach, screen);
   const draw = (host) => {
     const size = Math.min(host.clientWidth, 380);

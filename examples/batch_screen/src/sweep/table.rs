@@ -54,7 +54,8 @@ impl Sheet {
     pub(crate) fn new(folder: &Path, plan: &Plan) -> Result<Self, RunError> {
         let path = folder.join("sweep.csv");
         let mut columns = vec!["run".to_owned()];
-        columns.extend(plan.keys.iter().cloned());
+        // A seed that a row sets stands where every run's seed does.
+        columns.extend(plan.keys.iter().filter(|key| *key != "seed").cloned());
         columns.extend(["seed", "status", "exit"].map(str::to_owned));
         columns.extend(RESULTS[..2].iter().map(|(name, _)| (*name).to_owned()));
         columns.extend(plan.classes.iter().map(|class| format!("retained {class}")));
@@ -115,7 +116,6 @@ impl Sheet {
 
     fn describe(&mut self, row: usize, run: &Planned) {
         self.put(row, "run", &run.name);
-        self.put(row, "seed", run.seed.to_string());
         for set in &run.sets {
             let text = match &set.value {
                 toml::Value::String(text) => text.clone(),
@@ -123,6 +123,7 @@ impl Sheet {
             };
             self.put(row, &set.key, text);
         }
+        self.put(row, "seed", run.seed.to_string());
         if self.cell(row, "status") != Status::Failed.name() {
             self.put(row, "status", Status::Waiting.name());
         }

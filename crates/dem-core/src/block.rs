@@ -1,0 +1,196 @@
+//! Pairs that act: what acts in them, several side by side, several blocks of them at a time.
+
+use std::ops::Range;
+
+use crate::PairTerm;
+use crate::chunk::{List, Note, Roll, Sum};
+use crate::implicit::Met;
+use crate::lane::{Lane, Vector};
+use crate::lists::Entry;
+use crate::pairs::{Geometry, Loads, Pairs, Picked};
+use crate::pass::roll;
+use crate::view::View;
+
+/// Blocks that are worked on at a time: few enough to stay near.
+const BLOCKS: usize = 8;
+
+/// What all pairs of a chunk are loaded with.
+pub(crate) struct Pass<'a, T, L: Lane> {
+    pub(crate) permit: L::Permit,
+    pub(crate) view: &'a View<'a>,
+    pub(crate) term: &'a T,
+}
+
+/// The active pairs of a list and as many columns.
+pub(crate) struct Listed<'a, C> {
+    pub(crate) active: &'a [Entry],
+    pub(crate) columns: &'a mut [C],
+}
+
+/// Where a chunk's loads go.
+pub(crate) struct Out<'a> {
+    pub(crate) range: &'a Range<u32>,
+    pub(crate) sums: &'a mut [Sum],
+    pub(crate) rolls: &'a mut [Roll],
+    pub(crate) notes: &'a mut Vec<Note>,
+    pub(crate) apart: &'a mut Vec<u32>,
+    pub(crate) overlap: &'a mut f64,
+    /// Where an implicit term keeps the pairs that act: inside, and across the border.
+    pub(crate) met: [&'a mut Vec<Met>; 2],
+}
+
+/// Where and how some blocks of pairs are and what acts in them.
+///
+/// The numbers of a block wait long for roots and quotients. A processor fills that time with the
+/// next blocks only while the work on one is short, so each part of the work is done for several
+/// blocks before the next part.
+pub(crate) struct Stage<L> {
+    geometry: [Geometry<L>; BLOCKS],
+    loads: [Loads<L>; BLOCKS],
+}
+
+impl<L: Lane> Stage<L> {
+    #[inline(always)]
+    pub(crate) fn new(permit: L::Permit) -> Self {
+        Self { geometry: [Geometry::none(permit); BLOCKS], loads: [Loads::none(permit); BLOCKS] }
+    }
+}
+
+/// Loads pairs that act, as many as fill some blocks.
+#[inline(always)]
+pub(crate) fn load<T, L, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+    pass: &Pass<'_, T, L>,
+    list: &mut Listed<'_, T::Column>,
+    acting: &[u32],
+    stage: &mut Stage<L>,
+    out: &mut Out<'_>,
+) where
+    T: PairTerm,
+    L: Lane,
+{
+    let (permit, view) = (pass.permit, pass.view);
+    for acting in acting.chunks(BLOCKS * L::WIDTH) {
+        let blocks = acting.chunks_exact(L::WIDTH);
+        for (at, geometry) in blocks.clone().zip(&mut stage.geometry) {
+            let entries = L::each(|k| list.active[at[k] as usize]);
+            *geometry = view.geometry::<L, ROLLS>(permit, &entries);
+        }
+        for ((at, geometry), loads) in blocks.clone().zip(&stage.geometry).zip(&mut stage.loads) {
+            let entries = L::each(|k| list.active[at[k] as usize]);
+            let pairs = Pairs { view, entries, apart: APART, permit, geometry: *geometry };
+            *loads = pass.term.load_lanes(&pairs, &mut Picked { columns: list.columns, at });
+        }
+        for ((at, geometry), loads) in blocks.zip(&stage.geometry).zip(&stage.loads) {
+            let entries = L::each(|k| list.active[at[k] as usize]);
+            add_up::<L, INSIDE>(permit, &entries, geometry, loads, T::COUPLES, out);
+            if ROLLS && !APART {
+                brake::<L>(&entries, geometry, loads.rolling, out);
+            }
+            if !APART {
+                note_overlap(permit, geometry, out);
+            }
+            if T::IMPLICIT {
+                meet::<L>(&entries, geometry, at, INSIDE, out);
+            }
+            if loads.attention != 0 {
+                let list = if INSIDE { List::Inside } else { List::Across };
+                for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
+                    out.notes.push(Note { list, index: at[k] });
+                }
+            }
+        }
+    }
+}
+
+/// Adds forces and torques to the chunk's own particles, pair by pair.
+#[inline(always)]
+fn add_up<L: Lane, const INSIDE: bool>(
+    permit: L::Permit,
+    entries: &L::Each<Entry>,
+    geometry: &Geometry<L>,
+    loads: &Loads<L>,
+    couples: bool,
+    out: &mut Out<'_>,
+) {
+    let force = (geometry.normal * loads.tension + loads.shear).rows(permit);
+    let arm = geometry.normal.cross(loads.shear);
+    let mut torques = [arm * geometry.levers[0], arm * geometry.levers[1]];
+    if couples {
+        torques = [torques[0] + loads.couple, torques[1] - loads.couple];
+    }
+    let torques = [torques[0].rows(permit), torques[1].rows(permit)];
+    let first_slot = out.range.start;
+    for k in 0..L::WIDTH {
+        let sum = |side: usize| (entries[k][side] - first_slot) as usize;
+        if INSIDE || out.range.contains(&entries[k][0]) {
+            let sum = &mut out.sums[sum(0)];
+            sum.force.add(force[k]);
+            sum.torque.add(torques[0][k]);
+        }
+        if INSIDE || !out.range.contains(&entries[k][0]) {
+            let sum = &mut out.sums[sum(1)];
+            sum.force.take(force[k]);
+            sum.torque.add(torques[1][k]);
+        }
+    }
+}
+
+/// Keeps how pairs met for the end of the step; of pairs across a border only those whose first
+/// particle is the chunk's own.
+#[inline(always)]
+fn meet<L: Lane>(
+    entries: &L::Each<Entry>,
+    geometry: &Geometry<L>,
+    at: &[u32],
+    inside: bool,
+    out: &mut Out<'_>,
+) {
+    let (normal, slip) = (geometry.normal.unpack(), geometry.slip.unpack());
+    let (gap, rate) = (geometry.gap.unpack(), geometry.separation_speed.unpack());
+    let levers = [geometry.levers[0].unpack(), geometry.levers[1].unpack()];
+    let [mine, border] = &mut out.met;
+    let (met, list) = if inside { (mine, List::Inside) } else { (border, List::Across) };
+    for k in 0..L::WIDTH {
+        let slots = entries[k];
+        if inside || out.range.contains(&slots[0]) {
+            met.push(Met {
+                slots,
+                list,
+                index: at[k],
+                normal: normal[k],
+                levers: [levers[0][k], levers[1][k]],
+                gap: gap[k],
+                rate: rate[k],
+                slip: slip[k],
+            });
+        }
+    }
+}
+
+/// Adds the torques of rolling friction to the chunk's own particles.
+#[inline(always)]
+fn brake<L: Lane>(
+    entries: &L::Each<Entry>,
+    geometry: &Geometry<L>,
+    torque: Vector<L>,
+    out: &mut Out<'_>,
+) {
+    let (gaps, torque) = (geometry.gap.unpack(), torque.unpack());
+    for k in (0..L::WIDTH).filter(|&k| gaps[k] < 0.0) {
+        for (slot, torque) in entries[k].into_iter().zip([torque[k], -torque[k]]) {
+            if out.range.contains(&slot) {
+                roll(&mut out.rolls[(slot - out.range.start) as usize], torque);
+            }
+        }
+    }
+}
+
+/// Keeps the largest overlap over the smaller radius.
+#[inline(always)]
+fn note_overlap<L: Lane>(permit: L::Permit, geometry: &Geometry<L>, out: &mut Out<'_>) {
+    let smaller = geometry.radii[0].least(geometry.radii[1]);
+    if (L::splat(permit, *out.overlap) * smaller).any_less(-geometry.gap) {
+        let shares = (-geometry.gap / smaller).unpack();
+        *out.overlap = (0..L::WIDTH).fold(*out.overlap, |most, k| most.max(shares[k]));
+    }
+}
