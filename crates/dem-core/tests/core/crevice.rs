@@ -27,6 +27,10 @@ impl PairTerm for Weight {
     }
 
     fn load(&self, pair: &Pair, (): &mut ()) -> Load {
+        // In overlap the contact beside this term decides that nothing is idle.
+        if self.idle(&pair.encounter, &mut ()) {
+            return Load::default();
+        }
         let up = self.0 * DVec3::Z;
         let along = up.dot(pair.normal);
         let shear = up - along * pair.normal;
