@@ -27,10 +27,13 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "pendular-walls",
         ],
     ),
+    ("drawing", &[]),
     ("batch_screen", &["pendular"]),
+    ("stability_map", &["drawing", "pendular"]),
     (
         "bridge_calc",
         &[
+            "drawing",
             "pendular-capillary",
             "pendular-contact",
             "pendular-lubrication",

@@ -34,6 +34,7 @@ mod chunk;
 mod contact;
 mod error;
 mod grid;
+mod held;
 mod implicit;
 mod integrate;
 mod lane;

@@ -1,6 +1,9 @@
 //! The longest stable time step of a packing.
 
+use glam::DVec3;
+
 use crate::Class;
+use crate::held::Held;
 
 /// Contacts that a sphere of the smallest class is taken to have (fcc packing).
 const CONTACTS: f64 = 12.0;
@@ -120,14 +123,14 @@ fn packed<'a>(
 
 /// Sums over the pairs of one sphere: normal and tangential each.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sums {
+struct Sums {
     stiffness: [f64; 2],
     dashpot: [f64; 2],
     drag: [f64; 2],
 }
 
 impl Sums {
-    pub(crate) fn add(&mut self, load: &Load) {
+    fn add(&mut self, load: &Load) {
         let both = [
             (&mut self.stiffness, [load.normal_stiffness, load.tangential_stiffness]),
             (&mut self.dashpot, [load.normal_damping, load.tangential_damping]),
@@ -146,14 +149,9 @@ impl Sums {
     }
 
     /// Safety included.
-    pub(crate) fn limit(&self, mass: f64, class: usize) -> Limit {
-        let [stiff, _, drag] = self.lambdas(mass);
-        let (safety, term) = if drag * drag > 4.0 * stiff {
-            (SAFETY_VISCOUS, "viscous drag")
-        } else {
-            (SAFETY, "contact springs and dashpots")
-        };
-        Limit { time_step: safety * self.longest(mass), class, term }
+    fn limit(&self, mass: f64, class: usize) -> Limit {
+        let [stiff, dashpot, drag] = self.lambdas(mass);
+        limit(stiff, dashpot + drag, drag, class)
     }
 
     fn longest(&self, mass: f64) -> f64 {
@@ -164,6 +162,51 @@ impl Sums {
     fn lambdas(&self, mass: f64) -> [f64; 3] {
         [self.stiffness, self.dashpot, self.drag]
             .map(|[n, t]| 2.0 / mass * ((n + 2.0 * t) / 3.0).max(5.0 * t / 3.0))
+    }
+}
+
+/// Limit from the fastest spring, the strongest damping and the strongest drag among it.
+fn limit(stiff: f64, damp: f64, drag: f64, class: usize) -> Limit {
+    let (safety, term) = if drag * drag > 4.0 * stiff {
+        (SAFETY_VISCOUS, "viscous drag")
+    } else {
+        (SAFETY, "contact springs and dashpots")
+    };
+    Limit { time_step: safety * longest(stiff, damp), class, term }
+}
+
+/// What holds one sphere in a packing as it is.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Hold {
+    stiffness: Held,
+    damping: Held,
+    drag: Held,
+}
+
+impl Hold {
+    /// Adds a pair: its `normal` from this sphere outwards, this sphere's mass and the other's
+    /// (infinite for a wall), kg.
+    ///
+    /// Springs between two bodies obey `(a − b)² ≤ (1 + t) a² + (1 + 1/t) b²`, so blocks weighted in
+    /// that way bound the whole packing, whatever t. With t = √(m_i/m_j) one pair of equal spheres
+    /// and a sphere at a wall are exact, and a large sphere does not pay for the small ones around it.
+    pub(crate) fn add(&mut self, load: &Load, normal: DVec3, masses: [f64; 2]) {
+        let weight = (1.0 + (masses[0] / masses[1]).sqrt()) / masses[0];
+        self.stiffness.add(
+            normal,
+            weight * load.normal_stiffness,
+            weight * load.tangential_stiffness,
+        );
+        let (along, across) = (weight * load.normal_drag, weight * load.tangential_drag);
+        self.drag.add(normal, along, across);
+        let along = along + weight * load.normal_damping;
+        self.damping.add(normal, along, across + weight * load.tangential_damping);
+    }
+
+    /// Safety included.
+    pub(crate) fn limit(&self, class: usize) -> Limit {
+        let [stiff, damp, drag] = [self.stiffness, self.damping, self.drag].map(Held::largest);
+        limit(stiff, damp, drag, class)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A look at all that acts, between two steps.
 
 use super::Simulation;
-use crate::limit::{Limit, Sums};
+use crate::limit::{Hold, Limit};
 use crate::view::View;
 use crate::{Boundary, Encounter, Pair, PairTerm, Partner, wall_pass};
 
@@ -36,25 +36,33 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
     }
 
-    /// The longest stable time step of the packing as it is now: the same formula as
-    /// [`Simulation::limit`], with the sums over the pairs that act instead of twelve contacts.
+    /// The longest stable time step of the packing as it is now, from the pairs that act and the
+    /// directions they act in.
+    ///
+    /// Λ_K is the largest eigenvalue of any sphere's own block of the stiffness over the mass, each
+    /// pair counted `1 + √(m_i/m_j)` times, a wall once: a bound of the fastest motion for any
+    /// arrangement, exact for one pair of equal spheres. [`Simulation::limit`] takes twelve contacts
+    /// from all sides instead, before there are any.
     #[must_use]
     pub fn limit_now(&self) -> Limit {
         let particles = &self.particles;
-        let mut sums = vec![Sums::default(); particles.created as usize];
+        let classes = particles.classes();
+        let mass = |class: u16| classes[usize::from(class)].mass();
+        let mut holds = vec![Hold::default(); particles.created as usize];
         self.survey(|pair, column| {
             let load = self.term.load_on_limit(pair, column);
-            sums[pair.encounter.first as usize].add(&load);
+            let own = mass(pair.first_class);
+            let first = &mut holds[pair.encounter.first as usize];
             if let Partner::Particle(second) = pair.encounter.second {
-                sums[second as usize].add(&load);
+                let other = mass(pair.second_class);
+                first.add(&load, pair.normal, [own, other]);
+                holds[second as usize].add(&load, -pair.normal, [other, own]);
+            } else {
+                first.add(&load, pair.normal, [own, f64::INFINITY]);
             }
         });
         let bodies = particles.class.iter().zip(&particles.id);
-        let classes = particles.classes();
-        Limit::least(bodies.map(|(&class, &id)| {
-            let mass = classes[usize::from(class)].mass();
-            sums[id as usize].limit(mass, usize::from(class))
-        }))
+        Limit::least(bodies.map(|(&class, &id)| holds[id as usize].limit(usize::from(class))))
     }
 
     fn acts(&self, encounter: &Encounter, column: &T::Column) -> bool {

@@ -3,9 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
 mod bed;
+mod crevice;
 mod determinism;
 mod errors;
 mod impact;
 mod lists;
+mod rolling;
 mod survey;
 mod walls;

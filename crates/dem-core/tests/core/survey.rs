@@ -43,14 +43,39 @@ fn the_limit_as_it_is_counts_the_contacts_there_are() {
     let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(1e-6) };
     let mut simulation = Simulation::new(particles, term, NoWalls, settings).unwrap();
     simulation.advance(1).unwrap();
-    // The middle one has two contacts: Λ = 2 (2/m) (k_n + 2 k_t)/3 with k_t = 2/7 k_n.
-    let lambda = 4.0 / mass * RUB.stiffness * (1.0 + 4.0 / 7.0) / 3.0;
-    let expected = 0.9 * 2.0 / lambda.sqrt();
+    // The middle one has two contacts in a row: Λ = 2 · 2 k_n/m along it. Across it the two couple with
+    // the spin only as 5/2 and 1: Λ = 2 · 5 k_t/m = 2.86 k_n/m is less.
+    let expected = 0.9 * 2.0 / (4.0 * RUB.stiffness / mass).sqrt();
     let now = simulation.limit_now().time_step;
     assert!((now / expected - 1.0).abs() < 1e-12, "{now} {expected}");
-    // Twelve contacts allow √6 less.
-    let packed = simulation.limit().time_step;
-    assert!((now / packed / 6.0_f64.sqrt() - 1.0).abs() < 1e-12, "{now} {packed}");
+    // The row's own fastest motion: the middle against both ends, 3 k_n/m. The bound lies below it.
+    assert!(now < 2.0 / (3.0 * RUB.stiffness / mass).sqrt());
+    assert!(now > simulation.limit().time_step);
+}
+
+#[test]
+fn the_limit_of_one_pair_and_of_a_sphere_at_a_wall_is_exact() {
+    let class = Class::new(1e-3, 2500.0, 0).unwrap();
+    let mass = class.mass();
+    for (second, reduced) in [(true, 0.5 * mass), (false, mass)] {
+        let mut particles = Particles::new(vec![class]).unwrap();
+        // The pair hangs in the air.
+        let height = if second { 5e-3 } else { 0.9999e-3 };
+        particles.push(0, DVec3::Z * height, DVec3::ZERO, DVec3::ZERO).unwrap();
+        if second {
+            let above = DVec3::Z * (height + 1.9999e-3);
+            particles.push(0, above, DVec3::ZERO, DVec3::ZERO).unwrap();
+        }
+        let term = contact(&[class], Rub { restitution: 1.0, ..RUB });
+        let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(1e-6) };
+        let tray = Tray::still(None);
+        let mut simulation = Simulation::new(particles, term, tray, settings).unwrap();
+        simulation.advance(1).unwrap();
+        // k_t = 2/7 k_n: across it 3.5 k_t = k_n as well.
+        let expected = 0.9 * 2.0 / (RUB.stiffness / reduced).sqrt();
+        let now = simulation.limit_now().time_step;
+        assert!((now / expected - 1.0).abs() < 1e-12, "{second}: {now} {expected}");
+    }
 }
 
 #[test]

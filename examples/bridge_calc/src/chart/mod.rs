@@ -6,7 +6,7 @@ mod grid;
 mod measure;
 mod stats;
 mod summary;
-mod svg;
+
 mod tables;
 
 use std::io::{self, Write};

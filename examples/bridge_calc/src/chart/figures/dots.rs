@@ -3,8 +3,8 @@
 use crate::chart::measure::{METHODS, RUPTURES, Sample};
 use crate::chart::stats::Stats;
 use crate::chart::summary::{BODIES, bodies};
-use crate::chart::svg::{Anchor, Axis, Mark, Pen, Svg, panel};
 use crate::rupture::RuptureChoice;
+use drawing::{Anchor, Axis, Mark, Pen, Svg, panel};
 
 const WIDE: f64 = 205.0;
 const LEFT: f64 = 130.0;

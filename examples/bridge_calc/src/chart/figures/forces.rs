@@ -6,7 +6,7 @@ use pendular_capillary::young_laplace::ExactBridge;
 use pendular_capillary::{AnyCapillary, Bridge, CapillaryLaw, ForceCurve, Mate, Range};
 
 use crate::chart::ChartError;
-use crate::chart::svg::{Anchor, Axis, Pen, Svg, panel};
+use drawing::{Anchor, Axis, Pen, Svg, panel};
 
 const EXACT: Pen = Pen(190, 5.0, "");
 const LAW: Pen = Pen(0, 1.6, "");

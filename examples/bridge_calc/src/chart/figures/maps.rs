@@ -5,7 +5,7 @@ use pendular_capillary::{AnyCapillary, CapillaryLaw};
 use crate::chart::Measured;
 use crate::chart::measure::Sample;
 use crate::chart::summary::{map_ratio, worst};
-use crate::chart::svg::{Anchor, Pen, Svg, THIN};
+use drawing::{Anchor, Pen, Svg, THIN};
 
 const COLUMNS: usize = 2;
 const SQUARE: [f64; 2] = [36.0, 19.0];

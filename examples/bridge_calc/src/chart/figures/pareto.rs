@@ -3,7 +3,7 @@
 use pendular_capillary::{AnyCapillary, LawKind};
 
 use crate::chart::Measured;
-use crate::chart::svg::{Anchor, Axis, Mark, Pen, Svg, THIN, panel};
+use drawing::{Anchor, Axis, Mark, Pen, Svg, THIN, panel};
 
 const SIZE: [f64; 2] = [900.0, 520.0];
 const FRONT: Pen = Pen(120, 1.5, "6 4");

@@ -1,9 +1,9 @@
-//! Drawings as SVG text: just enough for axes, lines, marks and words.
+//! Drawings as SVG text: just enough for axes, lines, marks and words. Lengths are pixels.
 
 use std::fmt::Write as _;
 
 /// A drawing on white, its units pixels.
-pub(crate) struct Svg {
+pub struct Svg {
     body: String,
     width: f64,
     height: f64,
@@ -11,37 +11,49 @@ pub(crate) struct Svg {
 
 /// Where a text hangs on its point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Anchor {
+pub enum Anchor {
+    /// The text begins there.
     Start,
+    /// Its middle is there.
     Middle,
+    /// It ends there.
     End,
 }
 
 /// The shape of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Mark {
+pub enum Mark {
+    /// A circle.
     Circle,
+    /// A square.
     Square,
+    /// A square on its corner.
     Diamond,
 }
 
 /// How a line looks: grey level 0 (black) to 255, width, dash pattern (empty: drawn through).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pen(pub(crate) u8, pub(crate) f64, pub(crate) &'static str);
+pub struct Pen(pub u8, pub f64, pub &'static str);
 
-pub(crate) const THIN: Pen = Pen(0, 1.0, "");
-pub(crate) const GRID: Pen = Pen(225, 1.0, "");
+/// Black, one pixel wide.
+pub const THIN: Pen = Pen(0, 1.0, "");
+/// The light grey of grid lines.
+pub const GRID: Pen = Pen(225, 1.0, "");
 
 impl Svg {
-    pub(crate) fn new(width: f64, height: f64) -> Self {
+    /// An empty drawing.
+    #[must_use]
+    pub fn new(width: f64, height: f64) -> Self {
         Self { body: String::new(), width, height }
     }
 
-    pub(crate) fn line(&mut self, from: [f64; 2], to: [f64; 2], pen: Pen) {
+    /// A straight line.
+    pub fn line(&mut self, from: [f64; 2], to: [f64; 2], pen: Pen) {
         self.polyline(&[from, to], pen);
     }
 
-    pub(crate) fn polyline(&mut self, points: &[[f64; 2]], Pen(grey, width, dash): Pen) {
+    /// A line through points.
+    pub fn polyline(&mut self, points: &[[f64; 2]], Pen(grey, width, dash): Pen) {
         let _ = write!(self.body, "<path d=\"");
         for (k, [x, y]) in points.iter().enumerate() {
             let _ = write!(self.body, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
@@ -55,19 +67,20 @@ impl Svg {
     }
 
     /// A filled rectangle with a grey level.
-    pub(crate) fn area(&mut self, corner: [f64; 2], size: [f64; 2], grey: u8) {
+    pub fn area(&mut self, corner: [f64; 2], size: [f64; 2], grey: u8) {
         let ([x, y], [w, h]) = (corner, size);
         let _ = write!(self.body, "<path d=\"M{x} {y}h{w}v{h}h-{w}z\"");
         let _ = writeln!(self.body, " fill=\"{}\"/>", hex(grey));
     }
 
     /// An empty rectangle.
-    pub(crate) fn frame(&mut self, corner: [f64; 2], size: [f64; 2], pen: Pen) {
+    pub fn frame(&mut self, corner: [f64; 2], size: [f64; 2], pen: Pen) {
         let ([x, y], [w, h]) = (corner, size);
         self.polyline(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h], [x, y]], pen);
     }
 
-    pub(crate) fn mark(&mut self, [x, y]: [f64; 2], mark: Mark, filled: bool) {
+    /// A mark with its middle at a point.
+    pub fn mark(&mut self, [x, y]: [f64; 2], mark: Mark, filled: bool) {
         let fill = if filled { "#000" } else { "#fff" };
         let style = format!("fill=\"{fill}\" stroke=\"#000\" stroke-width=\"1.3\"");
         let _ = match mark {
@@ -86,12 +99,13 @@ impl Svg {
         };
     }
 
-    pub(crate) fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, size: f64, words: &str) {
+    /// Words at a point, `size` pixels high.
+    pub fn text(&mut self, [x, y]: [f64; 2], anchor: Anchor, size: f64, words: &str) {
         self.words(&format!("x=\"{x:.1}\" y=\"{y:.1}\""), anchor, size, words);
     }
 
     /// A number in the middle of a square, white on a dark one.
-    pub(crate) fn cell(&mut self, [x, y]: [f64; 2], light: bool, words: &str) {
+    pub fn cell(&mut self, [x, y]: [f64; 2], light: bool, words: &str) {
         let class = if light { "c w" } else { "c" };
         let _ = writeln!(
             self.body,
@@ -101,7 +115,7 @@ impl Svg {
     }
 
     /// Text that runs upwards.
-    pub(crate) fn upright(&mut self, [x, y]: [f64; 2], anchor: Anchor, size: f64, words: &str) {
+    pub fn upright(&mut self, [x, y]: [f64; 2], anchor: Anchor, size: f64, words: &str) {
         let place = format!("transform=\"translate({x:.1} {y:.1}) rotate(-90)\"");
         self.words(&place, anchor, size, words);
     }
@@ -118,7 +132,8 @@ impl Svg {
     }
 
     /// The finished file.
-    pub(crate) fn finish(self) -> String {
+    #[must_use]
+    pub fn finish(self) -> String {
         let Self { body, width, height } = self;
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -139,23 +154,31 @@ fn hex(grey: u8) -> String {
 
 /// A number line between two pixels.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Axis {
-    pub(crate) log: bool,
-    pub(crate) ends: (f64, f64),
-    pub(crate) pixels: (f64, f64),
+pub struct Axis {
+    /// Whether equal distances are equal ratios.
+    pub log: bool,
+    /// Values at its ends.
+    pub ends: (f64, f64),
+    /// Pixels of its ends.
+    pub pixels: (f64, f64),
 }
 
 impl Axis {
-    pub(crate) fn log(ends: (f64, f64), pixels: (f64, f64)) -> Self {
+    /// A logarithmic axis; its ends are positive.
+    #[must_use]
+    pub fn log(ends: (f64, f64), pixels: (f64, f64)) -> Self {
         Self { log: true, ends, pixels }
     }
 
-    pub(crate) fn linear(ends: (f64, f64), pixels: (f64, f64)) -> Self {
+    /// A linear axis.
+    #[must_use]
+    pub fn linear(ends: (f64, f64), pixels: (f64, f64)) -> Self {
         Self { log: false, ends, pixels }
     }
 
     /// The pixel of a value; values off the axis stick to its ends.
-    pub(crate) fn at(&self, value: f64) -> f64 {
+    #[must_use]
+    pub fn at(&self, value: f64) -> f64 {
         let place = |v: f64| if self.log { v.max(f64::MIN_POSITIVE).ln() } else { v };
         let (low, high) = (place(self.ends.0), place(self.ends.1));
         let share = ((place(value) - low) / (high - low)).clamp(0.0, 1.0);
@@ -163,7 +186,8 @@ impl Axis {
     }
 
     /// Values and labels of the ticks: powers of ten, or `step` apart on a linear axis.
-    pub(crate) fn ticks(&self, step: f64) -> Vec<(f64, String)> {
+    #[must_use]
+    pub fn ticks(&self, step: f64) -> Vec<(f64, String)> {
         if self.log {
             let (low, high) = (self.ends.0.log10(), self.ends.1.log10());
             let powers = (low - 1e-9).ceil() as i32..=(high + 1e-9).floor() as i32;
@@ -197,7 +221,7 @@ fn power(k: i32) -> String {
 }
 
 /// Grid lines, frame and tick labels of a panel. An empty axis label leaves its ticks unlabelled.
-pub(crate) fn panel(svg: &mut Svg, x: (&Axis, f64, &str), y: (&Axis, f64, &str)) {
+pub fn panel(svg: &mut Svg, x: (&Axis, f64, &str), y: (&Axis, f64, &str)) {
     let ((x_axis, x_step, x_label), (y_axis, y_step, y_label)) = (x, y);
     let (left, right) = x_axis.pixels;
     let (bottom, top) = y_axis.pixels;
