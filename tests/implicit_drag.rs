@@ -50,10 +50,6 @@ fn contact(classes: &[Class], restitution: f64) -> Contact<Linear> {
     )
 }
 
-fn adams() -> AdamsPerchard1985 {
-    AdamsPerchard1985 { near: Gap::Roughness { length: ROUGHNESS }.into() }
-}
-
 type AnyWet = Wet<AnyCapillary, Option<AnyNormalDrag>, Option<AnyTangentialDrag>>;
 
 /// One type of term for all tests: each other one would be compiled anew.
