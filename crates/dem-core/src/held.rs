@@ -39,8 +39,7 @@ impl Held {
             let upper = (0..N).flat_map(|i| (i + 1..N).map(move |j| (i, j)));
             let off: f64 = upper.clone().map(|(i, j)| self.0[i][j].abs()).sum();
             let trace: f64 = (0..N).map(|i| self.0[i][i]).sum();
-            // A NaN ends it too.
-            if !(off > 1e-12 * trace) {
+            if off.is_nan() || off <= 1e-12 * trace {
                 break;
             }
             upper.for_each(|(i, j)| self.rotate(i, j));
@@ -61,9 +60,9 @@ impl Held {
         for row in a.iter_mut() {
             (row[p], row[q]) = (cos * row[p] - sin * row[q], sin * row[p] + cos * row[q]);
         }
-        for k in 0..N {
-            (a[p][k], a[q][k]) = (cos * a[p][k] - sin * a[q][k], sin * a[p][k] + cos * a[q][k]);
-        }
+        let (first, second) = (a[p], a[q]);
+        a[p] = std::array::from_fn(|k| cos * first[k] - sin * second[k]);
+        a[q] = std::array::from_fn(|k| sin * first[k] + cos * second[k]);
     }
 }
 

@@ -79,7 +79,7 @@ pub(crate) fn edge(matter: &Matter, damper: Damper) -> Result<Edge, Fault> {
         for step in 0..WATCH {
             line.step(h, if step == 0 { 0.5 * h } else { h });
             // Ten times the speed is a hundred times the energy, as for the other scenes.
-            if !(line.speed.abs() < most) {
+            if line.speed.is_nan() || line.speed.abs() >= most {
                 return Ok(false);
             }
         }
