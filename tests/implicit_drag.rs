@@ -284,7 +284,7 @@ fn a_sheared_pair_goes_where_a_thousand_times_finer_explicit_steps_take_it() {
         let (_, explicit) = sheared(viscosity, model, h, 2e-3, false);
         let off = explicit.get(0).unwrap().position - fine.get(0).unwrap().position;
         if viscosity > 5.0 {
-            assert!(!(off.length() < 1e-5), "explicit drag is unstable here: {off}");
+            assert!(off.is_nan() || off.length() >= 1e-5, "explicit drag is unstable here: {off}");
         }
     }
 }
