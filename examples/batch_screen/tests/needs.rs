@@ -30,6 +30,7 @@ fn small() -> String {
         .replace("count = 34", "count = 4")
         .replace("diameter_mm = 80 ", "diameter_mm = 40 ")
         .replace("time = 2.0", "time = 0.08")
+        .replace("\"packing.floor_height_mm\", ", "")
 }
 
 #[test]

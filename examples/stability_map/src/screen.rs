@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn undersize_falls_through_and_liquid_goes_to_the_wires() {
         let way = Way { share: 1.0, law: AnyCapillary::Lambert, sides: None, drag: Drag::Explicit };
-        let found = run(&way, 0.12).unwrap();
+        let found = run(&way, 0.3).unwrap();
         assert!(found.retained < 1.0 && found.retained > 0.3, "{found:?}");
         assert!(found.on_walls > 1e-4 && found.on_walls < 0.5, "{found:?}");
         assert!(found.restitution > 0.2 && found.restitution < 0.7, "{found:?}");

@@ -22,7 +22,7 @@ const STIFF: f64 = 4.0;
 /// energy, however stiff the pairs and however far the passes are from their end.
 #[inline]
 pub(super) fn weight(g: f64) -> f64 {
-    if g < 0.4 {
+    if g < 0.3 {
         let g2 = g * g;
         return 0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)));
     }
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn the_weight_is_continuous_and_has_its_limits() {
         assert_eq!(weight(0.0), 0.5);
-        assert!((weight(0.4 - 1e-12) - weight(0.4)).abs() < 1e-9);
+        assert!((weight(0.3 - 1e-12) - weight(0.3)).abs() < 1e-9);
         assert!((weight(1.0 + 1e-12) - weight(1.0)).abs() < 1e-11);
         assert!((weight(4.0 - 1e-12) - 1.0).abs() < 1e-11);
         assert_eq!(weight(1e9), 1.0);
