@@ -61,12 +61,12 @@ impl Run {
     }
 }
 
-/// The runs to do: reference first, with the exact law, which is solved anew for every bridge; all
-/// others start from its table.
+/// The runs to do: reference first. All take the exact bridge from its table, whose error is far
+/// below their scatter; it is solved anew for every bridge in one of them.
 pub(crate) fn plan(quick: bool) -> Vec<(Axis, Way)> {
     let finest = if quick { 0.5 } else { 0.1 };
     let reference =
-        Way { share: finest, law: AnyCapillary::YoungLaplace, sides: None, drag: Drag::Explicit };
+        Way { share: finest, law: AnyCapillary::Tabulated, sides: None, drag: Drag::Explicit };
     let usual = Way { share: 0.5, law: AnyCapillary::Tabulated, sides: None, drag: Drag::Explicit };
     let mut all: Vec<_> = [1.0, 0.99, 0.98]
         .map(|by| (Axis::Reference, Way { share: by * finest, ..reference }))
