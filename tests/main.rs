@@ -4,6 +4,7 @@
 
 mod curves;
 mod failure_modes;
+mod implicit_beds;
 mod implicit_drag;
 mod laws;
 mod layering;
