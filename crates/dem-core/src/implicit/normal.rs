@@ -135,7 +135,8 @@ impl Along {
         let other = own - self.mobility * lack(own)[0];
         let (mut low, mut high) = (own.min(other), own.max(other));
         let small = TOLERANCE * (own.abs() + self.rate.abs());
-        let mut a = speed.clamp(low, high);
+        // Not `clamp`, which panics where a number is not finite.
+        let mut a = speed.max(low).min(high);
         for _ in 0..MOST_ITERATIONS {
             let [f, rise] = lack(a);
             if f > 0.0 {
