@@ -135,8 +135,9 @@ fn space(scene: &Scene, bottom: f64, solid_fraction: f64) -> Space {
 /// The file of a settled bed: its name is a hash of all that made it.
 fn kept(scene: &Scene, classes: &[Class], counts: &[u64], time_step: f64, beds: &Path) -> PathBuf {
     let made_of = format!(
-        "{:?} {classes:?} {counts:?} {time_step:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{:?} {classes:?} {counts:?} {time_step:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
+        super::settle::AT_REST,
         scene.seed,
         scene.packing,
         scene.gravity,

@@ -19,8 +19,9 @@ use crate::packing::Placed;
 use crate::say;
 use crate::scene::Scene;
 
-/// A bed counts as settled below this kinetic energy over the energy of a fall by one radius.
-const AT_REST: f64 = 1e-5;
+/// A bed counts as settled when its centres move with less than this share of the energy of a fall
+/// by one radius.
+pub(super) const AT_REST: f64 = 1e-5;
 /// Steps between looks at the kinetic energy.
 const LOOK: u64 = 1_000;
 /// Steps between looks at the clock and the stop flag.
@@ -64,8 +65,8 @@ pub(super) fn settle(
     let mut saved = Instant::now();
     while bed.time() < how.at_most {
         bed.advance(BATCH)?;
-        let energy = || bed.particles().kinetic_energy();
-        if bed.step().is_multiple_of(LOOK) && energy() < AT_REST * unit && bed.time() > 0.1 {
+        let still = || motion(&bed, classes) < AT_REST * unit;
+        if bed.step().is_multiple_of(LOOK) && bed.time() > 0.1 && still() {
             break;
         }
         let stop = how.stop.load(Ordering::Relaxed);
