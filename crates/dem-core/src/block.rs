@@ -23,6 +23,7 @@ pub(crate) struct Pass<'a, T, L: Lane> {
 
 /// The active pairs of a list and as many columns.
 pub(crate) struct Listed<'a, C> {
+    pub(crate) which: List,
     pub(crate) active: &'a [Entry],
     pub(crate) columns: &'a mut [C],
 }
@@ -58,7 +59,7 @@ impl<L: Lane> Stage<L> {
 
 /// Loads pairs that act, as many as fill some blocks.
 #[inline(always)]
-pub(crate) fn load<T, L, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+pub(crate) fn load<T, L, const APART: bool>(
     pass: &Pass<'_, T, L>,
     list: &mut Listed<'_, T::Column>,
     acting: &[u32],
@@ -69,11 +70,13 @@ pub(crate) fn load<T, L, const ROLLS: bool, const INSIDE: bool, const APART: boo
     L: Lane,
 {
     let (permit, view) = (pass.permit, pass.view);
+    let inside = list.which == List::Inside;
+    let rolls = view.rolls();
     for acting in acting.chunks(BLOCKS * L::WIDTH) {
         let blocks = acting.chunks_exact(L::WIDTH);
         for (at, geometry) in blocks.clone().zip(&mut stage.geometry) {
             let entries = L::each(|k| list.active[at[k] as usize]);
-            *geometry = view.geometry::<L, ROLLS>(permit, &entries);
+            *geometry = view.geometry::<L>(permit, &entries);
         }
         for ((at, geometry), loads) in blocks.clone().zip(&stage.geometry).zip(&mut stage.loads) {
             let entries = L::each(|k| list.active[at[k] as usize]);
@@ -82,20 +85,23 @@ pub(crate) fn load<T, L, const ROLLS: bool, const INSIDE: bool, const APART: boo
         }
         for ((at, geometry), loads) in blocks.zip(&stage.geometry).zip(&stage.loads) {
             let entries = L::each(|k| list.active[at[k] as usize]);
-            add_up::<L, INSIDE>(permit, &entries, geometry, loads, T::COUPLES, out);
-            if ROLLS && !APART {
+            if inside {
+                add_up::<L, true>(permit, &entries, geometry, loads, T::COUPLES, out);
+            } else {
+                add_up::<L, false>(permit, &entries, geometry, loads, T::COUPLES, out);
+            }
+            if rolls && !APART {
                 brake::<L>(&entries, geometry, loads.rolling, out);
             }
             if !APART {
                 note_overlap(permit, geometry, out);
             }
             if T::IMPLICIT {
-                meet::<L>(&entries, geometry, at, INSIDE, out);
+                meet::<L>(&entries, geometry, at, inside, out);
             }
             if loads.attention != 0 {
-                let list = if INSIDE { List::Inside } else { List::Across };
                 for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
-                    out.notes.push(Note { list, index: at[k] });
+                    out.notes.push(Note { list: list.which, index: at[k] });
                 }
             }
         }

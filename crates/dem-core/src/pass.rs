@@ -5,7 +5,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use crate::block::{Listed, Out, Pass, Stage, load};
-use crate::chunk::{Chunk, Roll, Sum};
+use crate::chunk::{Chunk, List, Roll, Sum};
 use crate::lane::{Kernel, Lane, in_widest};
 use crate::lists::{Entry, PairList};
 use crate::particles::Row;
@@ -18,7 +18,7 @@ const TILE: usize = 128;
 const WIDEST: usize = 8;
 
 /// Loads all active pairs of a chunk.
-pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
+pub(crate) fn read<T: PairTerm>(
     view: &View<'_>,
     term: &T,
     chunk: &mut Chunk<T::Column>,
@@ -27,12 +27,12 @@ pub(crate) fn read<T: PairTerm, const ROLLS: bool>(
     let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
     let met = [&mut chunk.links.met, &mut chunk.links_across.met];
     let out = Out { range, sums, rolls, notes, apart, overlap, met };
-    in_widest(Both::<'_, '_, T, ROLLS> { view, term, inside, across, out });
+    in_widest(Both { view, term, inside, across, out });
     *pair_time += start.elapsed();
 }
 
 /// Both lists of a chunk.
-struct Both<'v, 'a, T: PairTerm, const ROLLS: bool> {
+struct Both<'v, 'a, T: PairTerm> {
     view: &'a View<'v>,
     term: &'a T,
     inside: &'a mut PairList<T::Column>,
@@ -40,7 +40,7 @@ struct Both<'v, 'a, T: PairTerm, const ROLLS: bool> {
     out: Out<'a>,
 }
 
-impl<T: PairTerm, const ROLLS: bool> Kernel for Both<'_, '_, T, ROLLS> {
+impl<T: PairTerm> Kernel for Both<'_, '_, T> {
     #[inline(always)]
     fn run<L: Lane>(mut self, permit: L::Permit) {
         // A copy of its own: no store into a list can change it. All columns have one length, so that
@@ -49,27 +49,29 @@ impl<T: PairTerm, const ROLLS: bool> Kernel for Both<'_, '_, T, ROLLS> {
         let slots = places.len();
         let (velocities, class, id) = (&velocities[..slots], &class[..slots], &id[..slots]);
         let view = &View { velocities, class, id, ..*self.view };
-        let pass = Pass { permit, view, term: self.term };
-        let stage = &mut Stage::new(permit);
-        list::<T, L, ROLLS, true>(&pass, self.inside, stage, &mut self.out);
-        list::<T, L, ROLLS, false>(&pass, self.across, stage, &mut self.out);
+        let pass = Pass::<'_, T, L> { permit, view, term: self.term };
+        let stage = &mut Stage::<L>::new(permit);
+        for (pairs, which) in [(self.inside, List::Inside), (self.across, List::Across)] {
+            list::<T, L>(&pass, pairs, which, stage, &mut self.out);
+        }
     }
 }
 
 /// One list: first which pairs act, then what acts in them, several side by side. Those that touch
 /// come first, so that neither kind of pair pays for what only the other needs.
 ///
-/// `INSIDE`: both particles are the chunk's own; else the load goes to one of them only, computed
-/// in the same orientation as the chunk of the other one does.
+/// Across the border of the chunk the load goes to one of the particles only, computed in the same
+/// orientation as the chunk of the other one does.
 #[inline(always)]
-fn list<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
+fn list<T: PairTerm, L: Lane>(
     pass: &Pass<'_, T, L>,
     list: &mut PairList<T::Column>,
+    which: List,
     stage: &mut Stage<L>,
     out: &mut Out<'_>,
 ) {
     let active = list.active.as_slice();
-    let list = &mut Listed { active, columns: &mut list.columns[..active.len()] };
+    let list = &mut Listed { which, active, columns: &mut list.columns[..active.len()] };
     let mut touching = [0; TILE + WIDEST];
     let mut waiting = 0;
     let mut apart = std::mem::take(out.apart);
@@ -77,21 +79,21 @@ fn list<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool>(
     for start in (0..list.active.len()).step_by(TILE) {
         let count = pick::<T, L>(pass, list, start, &mut touching, waiting, &mut apart);
         let acting = &touching[..count];
-        waiting = several::<T, L, ROLLS, INSIDE, false>(pass, list, acting, stage, out);
+        waiting = several::<T, L, false>(pass, list, acting, stage, out);
         // What does not fill the lanes waits for the next tile.
         touching.copy_within(count - waiting..count, 0);
     }
-    singly::<T, ROLLS, INSIDE, false>(pass.view, pass.term, list, &touching[..waiting], out);
-    let waiting = several::<T, L, ROLLS, INSIDE, true>(pass, list, &apart, stage, out);
+    singly::<T, false>(pass.view, pass.term, list, &touching[..waiting], out);
+    let waiting = several::<T, L, true>(pass, list, &apart, stage, out);
     let rest = &apart[apart.len() - waiting..];
-    singly::<T, ROLLS, INSIDE, true>(pass.view, pass.term, list, rest, out);
+    singly::<T, true>(pass.view, pass.term, list, rest, out);
     *out.apart = apart;
 }
 
 /// Loads as many of the pairs as fill the lanes, if the term has them; returns how many are left
 /// over at the end.
 #[inline(always)]
-fn several<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+fn several<T: PairTerm, L: Lane, const APART: bool>(
     pass: &Pass<'_, T, L>,
     list: &mut Listed<'_, T::Column>,
     acting: &[u32],
@@ -99,18 +101,18 @@ fn several<T: PairTerm, L: Lane, const ROLLS: bool, const INSIDE: bool, const AP
     out: &mut Out<'_>,
 ) -> usize {
     if !T::LANES {
-        singly::<T, ROLLS, INSIDE, APART>(pass.view, pass.term, list, acting, out);
+        singly::<T, APART>(pass.view, pass.term, list, acting, out);
         return 0;
     }
     let waiting = acting.len() % L::WIDTH;
     let full = &acting[..acting.len() - waiting];
-    load::<T, L, ROLLS, INSIDE, APART>(pass, list, full, stage, out);
+    load::<T, L, APART>(pass, list, full, stage, out);
     waiting
 }
 
 /// Loads pairs one at a time. They are few: compiled once for whatever registers the machine has.
 #[inline(never)]
-fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>(
+fn singly<T: PairTerm, const APART: bool>(
     view: &View<'_>,
     term: &T,
     list: &mut Listed<'_, T::Column>,
@@ -118,7 +120,7 @@ fn singly<T: PairTerm, const ROLLS: bool, const INSIDE: bool, const APART: bool>
     out: &mut Out<'_>,
 ) {
     let pass = Pass { permit: (), view, term };
-    load::<T, f64, ROLLS, INSIDE, APART>(&pass, list, acting, &mut Stage::new(()), out);
+    load::<T, f64, APART>(&pass, list, acting, &mut Stage::new(()), out);
 }
 
 /// Writes the places of those pairs in a tile that are not idle: of those that touch behind the

@@ -247,16 +247,10 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn read(&mut self) {
         let mut chunks = std::mem::take(&mut self.chunks);
         let (view, term, boundary) = (self.view(), &self.term, &self.boundary);
-        let rolls = !self.rolls.is_empty();
         each(&mut chunks, |chunk| {
             chunk.clear();
-            if rolls {
-                pass::read::<T, true>(&view, term, chunk);
-                wall_pass::read::<T, B, true>(&view, term, boundary, chunk);
-            } else {
-                pass::read::<T, false>(&view, term, chunk);
-                wall_pass::read::<T, B, false>(&view, term, boundary, chunk);
-            }
+            pass::read(&view, term, chunk);
+            wall_pass::read(&view, term, boundary, chunk);
         });
         self.chunks = chunks;
     }

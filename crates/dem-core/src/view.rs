@@ -28,6 +28,12 @@ impl<'a> View<'a> {
         Self { classes, places, velocities, class, id, rolls, time_step, lag }
     }
 
+    /// Whether the term uses rolling friction.
+    #[inline(always)]
+    pub(crate) fn rolls(&self) -> bool {
+        !self.rolls.is_empty()
+    }
+
     pub(crate) fn inertia(&self, slot: usize) -> f64 {
         self.classes[usize::from(self.class[slot])].inertia()
     }
@@ -73,7 +79,7 @@ impl<'a> View<'a> {
 
     /// Where pairs are and how they move.
     #[inline(always)]
-    pub(crate) fn geometry<L: Lane, const ROLLS: bool>(
+    pub(crate) fn geometry<L: Lane>(
         &self,
         permit: L::Permit,
         entries: &L::Each<Entry>,
@@ -105,7 +111,7 @@ impl<'a> View<'a> {
             levers,
             time_step: self.time_step,
         };
-        if ROLLS {
+        if self.rolls() {
             let rolls = |side: usize| L::each(|k| &self.rolls[entries[k][side] as usize]);
             let (p, q) = (rolls(0), rolls(1));
             geometry.expected_spin = spin
@@ -121,8 +127,8 @@ impl<'a> View<'a> {
     }
 
     /// All of one pair.
-    pub(crate) fn pair<const ROLLS: bool>(&self, entry: Entry) -> Pair {
-        let geometry = self.geometry::<f64, ROLLS>((), &[entry]);
+    pub(crate) fn pair(&self, entry: Entry) -> Pair {
+        let geometry = self.geometry::<f64>((), &[entry]);
         Pairs { view: self, entries: [entry], apart: false, permit: (), geometry }.pair(0)
     }
 }

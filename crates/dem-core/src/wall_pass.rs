@@ -14,7 +14,7 @@ use crate::{Boundary, Encounter, Pair, PairTerm, Partner, Touch};
 const SAME: f64 = 0.8;
 
 /// Loads all wall pairs of a chunk.
-pub(crate) fn read<T: PairTerm, B: Boundary, const ROLLS: bool>(
+pub(crate) fn read<T: PairTerm, B: Boundary>(
     view: &View<'_>,
     term: &T,
     boundary: &B,
@@ -28,7 +28,7 @@ pub(crate) fn read<T: PairTerm, B: Boundary, const ROLLS: bool>(
     let mut walls = std::mem::take(&mut chunk.walls);
     for (index, wall) in walls.iter_mut().enumerate() {
         if boundary.is_present(wall.part) {
-            one::<T, B, ROLLS>(view, term, boundary, chunk, wall, index as u32, reach);
+            one(view, term, boundary, chunk, wall, index as u32, reach);
         }
     }
     chunk.walls = walls;
@@ -36,7 +36,7 @@ pub(crate) fn read<T: PairTerm, B: Boundary, const ROLLS: bool>(
 }
 
 #[inline]
-fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
+fn one<T: PairTerm, B: Boundary>(
     view: &View<'_>,
     term: &T,
     boundary: &B,
@@ -58,7 +58,7 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
             wall.memories.push(Memory { touch, column: T::Column::default() });
         }
         if wall.memories.len() == 1 && same(&wall.memories[0]) {
-            act::<T, B, ROLLS>(view, term, boundary, chunk, wall, index, 0, &touch);
+            act(view, term, boundary, chunk, wall, index, 0, &touch);
             return;
         }
     }
@@ -75,7 +75,7 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
     remember(term, &chunk.touches, &mut wall.memories, &mut chunk.memories);
     let touches = std::mem::take(&mut chunk.touches);
     for (k, touch) in touches.iter().enumerate() {
-        act::<T, B, ROLLS>(view, term, boundary, chunk, wall, index, k, touch);
+        act(view, term, boundary, chunk, wall, index, k, touch);
     }
     chunk.touches = touches;
 }
@@ -83,7 +83,7 @@ fn one<T: PairTerm, B: Boundary, const ROLLS: bool>(
 /// Loads one touch, the `k`-th nearest of its part.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)] // one loop body in two places
-fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
+fn act<T: PairTerm, B: Boundary>(
     view: &View<'_>,
     term: &T,
     boundary: &B,
@@ -105,11 +105,11 @@ fn act<T: PairTerm, B: Boundary, const ROLLS: bool>(
     if term.idle(&encounter, &mut memory.column) {
         return;
     }
-    let pair = pair::<B, ROLLS>(view, boundary, wall.slot, encounter, touch, before);
+    let pair = pair(view, boundary, wall.slot, encounter, touch, before);
     let load = term.load(&pair, &mut memory.column);
     let slot = (wall.slot - chunk.range.start) as usize;
     add_wall(&mut chunk.sums[slot], &load, &pair);
-    if ROLLS && touch.gap < 0.0 {
+    if view.rolls() && touch.gap < 0.0 {
         roll(&mut chunk.rolls[slot], load.rolling);
     }
     if -touch.gap > chunk.overlap * pair.radii[0] {
@@ -149,7 +149,7 @@ fn remember<T: PairTerm>(
 
 /// A particle and a wall. The half-step normal is the mean of the last two: right on any shape.
 #[inline(always)]
-pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
+pub(crate) fn pair<B: Boundary>(
     view: &View<'_>,
     boundary: &B,
     slot: u32,
@@ -180,7 +180,7 @@ pub(crate) fn pair<B: Boundary, const ROLLS: bool>(
         levers: [r, 0.0],
         time_step: view.time_step,
     };
-    if ROLLS {
+    if view.rolls() {
         let roll = &view.rolls[slot];
         pair.expected_spin = spin + roll.spin;
         pair.rolling_inertia = view.inertia(slot) / roll.contacts;

@@ -328,8 +328,7 @@ impl<T: PairTerm> Gathering<'_, T> {
                     continue;
                 }
                 let before = touch.normal;
-                let pair =
-                    wall_pass::pair::<B, false>(view, boundary, slot, encounter, &touch, before);
+                let pair = wall_pass::pair(view, boundary, slot, encounter, &touch, before);
                 let met = Met {
                     slots: [slot; 2],
                     list: List::Wall { memory: k as u32 },

@@ -19,7 +19,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let inside = chunk.inside.active.iter().zip(&chunk.inside.columns);
             for (&entry, column) in inside.chain(across) {
                 if self.acts(&view.meet(entry), column) {
-                    see(&self.pair(&view, entry), column);
+                    see(&view.pair(entry), column);
                 }
             }
             for wall in chunk.walls.iter().filter(|wall| self.boundary.is_present(wall.part)) {
@@ -69,10 +69,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         !self.term.idle(encounter, &mut column.clone())
     }
 
-    fn pair(&self, view: &View<'_>, entry: crate::lists::Entry) -> Pair {
-        if self.rolls.is_empty() { view.pair::<false>(entry) } else { view.pair::<true>(entry) }
-    }
-
     fn wall_pair(
         &self,
         view: &View<'_>,
@@ -80,11 +76,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         encounter: Encounter,
         memory: &crate::chunk::Memory<T::Column>,
     ) -> Pair {
-        let (boundary, touch) = (&self.boundary, &memory.touch);
-        if self.rolls.is_empty() {
-            wall_pass::pair::<B, false>(view, boundary, slot, encounter, touch, touch.normal)
-        } else {
-            wall_pass::pair::<B, true>(view, boundary, slot, encounter, touch, touch.normal)
-        }
+        let touch = &memory.touch;
+        wall_pass::pair(view, &self.boundary, slot, encounter, touch, touch.normal)
     }
 }
