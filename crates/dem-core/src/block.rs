@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use crate::PairTerm;
 use crate::chunk::{List, Note, Roll, Sum};
-use crate::implicit::Met;
+use crate::implicit::{Colours, Impulse, Inverse, Links, Met};
 use crate::lane::{Lane, Vector};
 use crate::lists::Entry;
-use crate::pairs::{Geometry, Loads, Pairs, Picked};
+use crate::pairs::{Columns, Geometry, Loads, Pairs, Picked};
 use crate::pass::roll;
 use crate::view::View;
 
@@ -36,8 +36,9 @@ pub(crate) struct Out<'a> {
     pub(crate) notes: &'a mut Vec<Note>,
     pub(crate) apart: &'a mut Vec<u32>,
     pub(crate) overlap: &'a mut f64,
+    pub(crate) colours: &'a mut Colours,
     /// Where an implicit term keeps the pairs that act: inside, and across the border.
-    pub(crate) met: [&'a mut Vec<Met>; 2],
+    pub(crate) links: [&'a mut Links; 2],
 }
 
 /// Where and how some blocks of pairs are and what acts in them.
@@ -80,7 +81,7 @@ pub(crate) fn load<T, L, const APART: bool>(
         }
         for ((at, geometry), loads) in blocks.clone().zip(&stage.geometry).zip(&mut stage.loads) {
             let entries = L::each(|k| list.active[at[k] as usize]);
-            let pairs = Pairs { view, entries, apart: APART, permit, geometry: *geometry };
+            let pairs = Pairs { view, entries, apart: APART, permit, geometry };
             *loads = pass.term.load_lanes(&pairs, &mut Picked { columns: list.columns, at });
         }
         for ((at, geometry), loads) in blocks.zip(&stage.geometry).zip(&stage.loads) {
@@ -97,7 +98,10 @@ pub(crate) fn load<T, L, const APART: bool>(
                 note_overlap(permit, geometry, out);
             }
             if T::IMPLICIT {
-                meet::<L>(&entries, geometry, at, inside, out);
+                // Those that want attention are looked at again once they have had it.
+                let which = !loads.attention;
+                let pairs = Pairs { view, entries, apart: APART, permit, geometry };
+                meet(pass, list, &pairs, at, which, out);
             }
             if loads.attention != 0 {
                 for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
@@ -141,35 +145,41 @@ fn add_up<L: Lane, const INSIDE: bool>(
     }
 }
 
-/// Keeps how pairs met for the end of the step; of pairs across a border only those whose first
-/// particle is the chunk's own.
+/// Keeps those pairs in `which` something resists for the end of the step; of pairs across a border
+/// only those whose first particle is the chunk's own.
 #[inline(always)]
-fn meet<L: Lane>(
-    entries: &L::Each<Entry>,
-    geometry: &Geometry<L>,
+fn meet<T: PairTerm, L: Lane>(
+    pass: &Pass<'_, T, L>,
+    list: &mut Listed<'_, T::Column>,
+    pairs: &Pairs<'_, L>,
     at: &[u32],
-    inside: bool,
+    mut which: u32,
     out: &mut Out<'_>,
 ) {
-    let (normal, slip) = (geometry.normal.unpack(), geometry.slip.unpack());
-    let (gap, rate) = (geometry.gap.unpack(), geometry.separation_speed.unpack());
-    let levers = [geometry.levers[0].unpack(), geometry.levers[1].unpack()];
-    let [mine, border] = &mut out.met;
-    let (met, list) = if inside { (mine, List::Inside) } else { (border, List::Across) };
-    for k in 0..L::WIDTH {
-        let slots = entries[k];
-        if inside || out.range.contains(&slots[0]) {
-            met.push(Met {
-                slots,
-                list,
-                index: at[k],
-                normal: normal[k],
-                levers: [levers[0][k], levers[1][k]],
-                gap: gap[k],
-                rate: rate[k],
-                slip: slip[k],
-            });
+    let (permit, view, geometry) = (pass.permit, pass.view, pairs.geometry);
+    let inside = list.which == List::Inside;
+    if !inside {
+        for k in (0..L::WIDTH).filter(|&k| !out.range.contains(&pairs.entries[k][0])) {
+            which &= !(1 << k);
         }
+    }
+    let links = &mut *out.links[usize::from(!inside)];
+    let mut columns = Picked { columns: list.columns, at };
+    let mut impulse = |k| pass.term.impulse(columns.column(k)).copied().unwrap_or_default();
+    let impulses: L::Each<Impulse> = L::each(&mut impulse);
+    // The middle of what the gap is expected to be charged for in this step.
+    let charged = L::pack(permit, &impulses, |impulse| impulse.charged);
+    let charged = charged.if_less(L::splat(permit, f64::INFINITY), charged, geometry.gap);
+    let middle = charged + L::splat(permit, 0.5 * view.kick()) * geometry.separation_speed;
+    let resist = pass.term.resist_lanes(pairs, &mut columns, middle);
+    let (slots, index) = (L::each(|k| pairs.entries[k]), L::each(|k| at[k]));
+    let which = which & resist.any();
+    let met = Met { which, slots, list: list.which, index, geometry, resist, impulses };
+    let inverse = Inverse { classes: view.inverse, class: view.class };
+    if inside && L::WIDTH > 1 {
+        links.add(permit, &met, inverse, view.kick());
+    } else {
+        links.add_loose(&met, which, inverse, view.kick());
     }
 }
 

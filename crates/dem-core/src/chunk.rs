@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use glam::DVec3;
 
-use crate::implicit::Links;
+use crate::implicit::{Colours, Links};
 use crate::lists::PairList;
-use crate::particles::Row;
+use crate::particles::{Row, Velocity};
 use crate::view::View;
 use crate::{Encounter, Touch, wall_pass};
 
@@ -84,6 +84,10 @@ pub(crate) struct Chunk<C> {
     /// first particle is the chunk's own. Empty unless the term is implicit.
     pub(crate) links: Links,
     pub(crate) links_across: Links,
+    /// Scratch: which pairs of the chunk can be solved for at once.
+    pub(crate) colours: Colours,
+    /// Scratch: what remembered impulses do to the chunk's velocities.
+    pub(crate) pushed: Vec<Velocity>,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -107,6 +111,8 @@ impl<C: Copy + Default> Chunk<C> {
             memories: Memories::new(),
             links: Links::default(),
             links_across: Links::default(),
+            colours: Colours::default(),
+            pushed: Vec::new(),
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,
@@ -117,8 +123,8 @@ impl<C: Copy + Default> Chunk<C> {
         self.sums.fill(Sum::default());
         self.rolls.fill(Roll::default());
         self.notes.clear();
-        self.links.met.clear();
-        self.links_across.met.clear();
+        self.links.clear();
+        self.links_across.clear();
     }
 
     /// Who meets in the pair that a note is about, as it was read.

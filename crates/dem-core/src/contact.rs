@@ -274,14 +274,14 @@ where
                     let [first, second] = pairs.classes(k);
                     &dense[usize::from(first) * self.classes + usize::from(second)]
                 });
-                act(pairs.permit, laws, self.acting(), &pairs.geometry, columns)
+                act(pairs.permit, laws, self.acting(), pairs.geometry, columns)
             }
             Table::OnDemand(rule) => {
                 let laws = L::each(|k| {
                     let [first, second] = pairs.classes(k);
                     rule(first, Partner::Class(second))
                 });
-                act(pairs.permit, L::each(|k| &laws[k]), self.acting(), &pairs.geometry, columns)
+                act(pairs.permit, L::each(|k| &laws[k]), self.acting(), pairs.geometry, columns)
             }
         }
     }
@@ -300,24 +300,50 @@ where
     }
 
     #[inline(always)]
-    fn resist(
-        &self,
-        encounter: &Encounter,
-        [first, second]: [u16; 2],
-        column: &Self::Column,
-        _: f64,
-    ) -> Resist {
-        let overlap = -encounter.gap;
+    fn resist(&self, pair: &Pair, column: &Self::Column, _: f64) -> Resist {
+        let overlap = -pair.encounter.gap;
         if overlap <= 0.0 {
             return Resist::default();
         }
-        let law = self.law(first, partner(encounter, second));
+        let law = self.law_of(pair);
         let repulsion = law.normal.force(overlap, 0.0, &mut column.memory.clone()).max(0.0);
         Resist {
             dashpot: law.normal.damping(overlap),
             pull: if law.normal.may_pull() { f64::INFINITY } else { repulsion },
             rolling: law.rolling_friction * repulsion,
             ..Resist::default()
+        }
+    }
+
+    #[inline(always)]
+    fn resist_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+        _: L,
+    ) -> Resist<L> {
+        let (permit, none) = (pairs.permit, Resist::none(pairs.permit));
+        if pairs.apart {
+            return none;
+        }
+        let laws = L::each(|k| {
+            let [first, second] = pairs.classes(k);
+            self.law(first, Partner::Class(second))
+        });
+        let overlap = -pairs.geometry.gap;
+        let (overlaps, zero) = (overlap.unpack(), L::splat(permit, 0.0));
+        let mut memories = L::each(|k| columns.column(k).memory);
+        let normal = L::each(|k| &laws[k].normal);
+        let [repulsion, ..] = N::side_by_side(&normal, overlap, zero, &mut memories);
+        let repulsion = repulsion.most(zero);
+        let damping = L::each(|k| laws[k].normal.damping(overlaps[k]));
+        let strongest =
+            L::pack(permit, &laws, |law| if law.normal.may_pull() { f64::INFINITY } else { 0.0 });
+        Resist {
+            dashpot: L::pack(permit, &damping, |damping| *damping),
+            pull: strongest.most(repulsion),
+            rolling: L::pack(permit, &laws, |law| law.rolling_friction) * repulsion,
+            ..none
         }
     }
 

@@ -55,6 +55,28 @@ impl<L: Lane> Geometry<L> {
     }
 }
 
+impl<L: Lane> Geometry<L> {
+    /// Pair `k` alone.
+    #[inline(always)]
+    pub(crate) fn single(&self, k: usize) -> Geometry<f64> {
+        let one = |lanes: L| lanes.unpack()[k];
+        let vector = |v: Vector<L>| Vector { x: one(v.x), y: one(v.y), z: one(v.z) };
+        Geometry {
+            gap: one(self.gap),
+            radii: [one(self.radii[0]), one(self.radii[1])],
+            normal: vector(self.normal),
+            half_step_normal: vector(self.half_step_normal),
+            separation_speed: one(self.separation_speed),
+            slip: vector(self.slip),
+            spin: vector(self.spin),
+            expected_spin: vector(self.expected_spin),
+            rolling_inertia: one(self.rolling_inertia),
+            levers: [one(self.levers[0]), one(self.levers[1])],
+            time_step: self.time_step,
+        }
+    }
+}
+
 impl Geometry<f64> {
     /// Of a single pair.
     #[must_use]
@@ -86,7 +108,7 @@ pub struct Pairs<'a, L: Lane> {
     /// What lanes of these pairs are made with.
     pub permit: L::Permit,
     /// Where the pairs are and how they move.
-    pub geometry: Geometry<L>,
+    pub geometry: &'a Geometry<L>,
 }
 
 impl<L: Lane> Pairs<'_, L> {
@@ -106,7 +128,7 @@ impl<L: Lane> Pairs<'_, L> {
     /// All of pair `k`.
     #[inline(always)]
     pub fn pair(&self, k: usize) -> Pair {
-        let g = &self.geometry;
+        let g = self.geometry;
         let [first_class, second_class] = self.classes(k);
         Pair {
             encounter: self.encounter(k),

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::block::{Listed, Out, Pass, Stage, load};
 use crate::chunk::{Chunk, List, Roll, Sum};
+use crate::implicit::Colours;
 use crate::lane::{Kernel, Lane, in_widest};
 use crate::lists::{Entry, PairList};
 use crate::particles::Row;
@@ -14,19 +15,16 @@ use crate::{Load, Pair, PairTerm};
 
 /// Pairs that are looked at before those of them that act are loaded: few enough to stay near.
 const TILE: usize = 128;
-/// The most pairs that lie side by side.
-const WIDEST: usize = 8;
+/// The most pairs that wait.
+const MANY: usize = Colours::WINDOW + TILE;
 
 /// Loads all active pairs of a chunk.
-pub(crate) fn read<T: PairTerm>(
-    view: &View<'_>,
-    term: &T,
-    chunk: &mut Chunk<T::Column>,
-) {
+pub(crate) fn read<T: PairTerm>(view: &View<'_>, term: &T, chunk: &mut Chunk<T::Column>) {
     let start = Instant::now();
     let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
-    let met = [&mut chunk.links.met, &mut chunk.links_across.met];
-    let out = Out { range, sums, rolls, notes, apart, overlap, met };
+    let colours = &mut chunk.colours;
+    let links = [&mut chunk.links, &mut chunk.links_across];
+    let out = Out { range, sums, rolls, notes, apart, overlap, colours, links };
     in_widest(Both { view, term, inside, across, out });
     *pair_time += start.elapsed();
 }
@@ -72,21 +70,39 @@ fn list<T: PairTerm, L: Lane>(
 ) {
     let active = list.active.as_slice();
     let list = &mut Listed { which, active, columns: &mut list.columns[..active.len()] };
-    let mut touching = [0; TILE + WIDEST];
+    let mut touching = [0; MANY];
     let mut waiting = 0;
     let mut apart = std::mem::take(out.apart);
     apart.clear();
+    // An implicit term sorts them first, for which there have to be some.
+    let least = if T::IMPLICIT && which == List::Inside { Colours::WINDOW } else { 1 };
     for start in (0..list.active.len()).step_by(TILE) {
-        let count = pick::<T, L>(pass, list, start, &mut touching, waiting, &mut apart);
-        let acting = &touching[..count];
-        waiting = several::<T, L, false>(pass, list, acting, stage, out);
-        // What does not fill the lanes waits for the next tile.
-        touching.copy_within(count - waiting..count, 0);
+        waiting = pick::<T, L>(pass, list, start, &mut touching, waiting, &mut apart);
+        if waiting >= least {
+            let acting = &mut touching[..waiting];
+            let left = several::<T, L, false>(pass, list, acting, stage, out);
+            // What does not fill the lanes waits for the next tile.
+            touching.copy_within(waiting - left..waiting, 0);
+            waiting = left;
+        }
+        if waiting >= Colours::WINDOW {
+            singly::<T, false>(pass.view, pass.term, list, &touching[..waiting], out);
+            waiting = 0;
+        }
     }
-    singly::<T, false>(pass.view, pass.term, list, &touching[..waiting], out);
-    let waiting = several::<T, L, true>(pass, list, &apart, stage, out);
-    let rest = &apart[apart.len() - waiting..];
-    singly::<T, true>(pass.view, pass.term, list, rest, out);
+    let left = several::<T, L, false>(pass, list, &mut touching[..waiting], stage, out);
+    singly::<T, false>(pass.view, pass.term, list, &touching[waiting - left..waiting], out);
+    let window = if T::IMPLICIT { Colours::WINDOW } else { usize::MAX };
+    let mut rest = &mut apart[..];
+    while !rest.is_empty() {
+        let count = rest.len().min(window);
+        let mut left = several::<T, L, true>(pass, list, &mut rest[..count], stage, out);
+        if count == rest.len() || left == count {
+            singly::<T, true>(pass.view, pass.term, list, &rest[count - left..count], out);
+            left = 0;
+        }
+        rest = &mut rest[count - left..];
+    }
     *out.apart = apart;
 }
 
@@ -96,7 +112,7 @@ fn list<T: PairTerm, L: Lane>(
 fn several<T: PairTerm, L: Lane, const APART: bool>(
     pass: &Pass<'_, T, L>,
     list: &mut Listed<'_, T::Column>,
-    acting: &[u32],
+    acting: &mut [u32],
     stage: &mut Stage<L>,
     out: &mut Out<'_>,
 ) -> usize {
@@ -104,10 +120,13 @@ fn several<T: PairTerm, L: Lane, const APART: bool>(
         singly::<T, APART>(pass.view, pass.term, list, acting, out);
         return 0;
     }
-    let waiting = acting.len() % L::WIDTH;
-    let full = &acting[..acting.len() - waiting];
-    load::<T, L, APART>(pass, list, full, stage, out);
-    waiting
+    let full = if T::IMPLICIT && list.which == List::Inside {
+        out.colours.sort(list.active, acting, out.range)
+    } else {
+        acting.len() - acting.len() % L::WIDTH
+    };
+    load::<T, L, APART>(pass, list, &acting[..full], stage, out);
+    acting.len() - full
 }
 
 /// Loads pairs one at a time. They are few: compiled once for whatever registers the machine has.
@@ -131,7 +150,7 @@ fn pick<T: PairTerm, L: Lane>(
     pass: &Pass<'_, T, L>,
     list: &mut Listed<'_, T::Column>,
     start: usize,
-    touching: &mut [u32; TILE + WIDEST],
+    touching: &mut [u32; MANY],
     waiting: usize,
     apart: &mut Vec<u32>,
 ) -> usize {

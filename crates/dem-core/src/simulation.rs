@@ -53,8 +53,10 @@ pub struct Simulation<T: PairTerm, B> {
     departures: Vec<Departure>,
     profile: Profile,
     limit: Limit,
-    /// Velocities before the kick, for an implicit term.
-    before: Vec<crate::particles::Velocity>,
+    /// Scratch: what remembered impulses do to the velocities, for an implicit term.
+    /// How many rounds the last step took.
+    rounds: u32,
+    pushed: Vec<crate::particles::Velocity>,
     /// 1/m and 1/I of the classes, for the same.
     inverse: Vec<[f64; 2]>,
     passes: crate::Passes,
@@ -116,7 +118,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             departures: Vec::new(),
             profile: Profile::default(),
             limit,
-            before: Vec::new(),
+            rounds: 1,
+            pushed: Vec::new(),
             inverse,
             passes: crate::Passes::default(),
         })
@@ -241,7 +244,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn view(&self) -> View<'_> {
         // At the start velocities and positions are of the same time.
         let lag = if self.step == 0 { 0.0 } else { 0.5 * self.settings.time_step };
-        View::new(&self.particles, &self.rolls, self.settings.time_step, lag)
+        View::new(&self.particles, &self.rolls, &self.inverse, [self.settings.time_step, lag])
     }
 
     fn read(&mut self) {
@@ -266,9 +269,16 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let first = |k: usize| k == 0 || due[k - 1].bodies != due[k].bodies || !due[k].is_copy();
         let count = (0..due.len()).filter(|&k| first(k)).count();
         let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(count);
-        for due in (0..due.len()).filter(|&k| first(k)).map(|k| &due[k]) {
-            let encounter = self.chunks[due.chunk as usize].encounter(&self.view(), &due.note);
-            let column = *self.chunks[due.chunk as usize].column(due.note.list, due.note.index);
+        let mut owners = Vec::new();
+        for k in (0..due.len()).filter(|&k| first(k)) {
+            let owner =
+                if self.owns(&due[k]) { &due[k] } else { due.get(k + 1).unwrap_or(&due[k]) };
+            let chunk = &mut self.chunks[owner.chunk as usize];
+            let column = *chunk.column(owner.note.list, owner.note.index);
+            if T::IMPLICIT {
+                owners.push((owner.chunk, owner.note));
+            }
+            let encounter = self.chunks[owner.chunk as usize].encounter(&self.view(), &owner.note);
             visits.push(Visit { encounter, column, ending: false });
         }
         self.lists.visited += visits.len();
@@ -289,8 +299,18 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         drop((due, visits));
         let finished = self.term.finish();
         finished.map_err(|source| SimulationError::Term { time, source })?;
+        if T::IMPLICIT {
+            self.meet_settled(&owners);
+        }
         self.profile.settling += start.elapsed();
         Ok(())
+    }
+
+    /// Whether this is the copy of a pair that counts: the one of its first particle's chunk.
+    fn owns(&self, due: &Due) -> bool {
+        let chunk = &self.chunks[due.chunk as usize];
+        let first = || chunk.across.active[due.note.index as usize][0];
+        due.note.list != List::Across || chunk.range.contains(&first())
     }
 
     /// All pairs that want attention in the order of their keys; a pair that stands in two lists is

@@ -107,16 +107,22 @@ pub trait PairTerm: Send + Sync {
     fn leave_resistance(&mut self) {}
 
     /// What resists motion in this pair, with drags at `gap` m and contacts at the encounter's.
-    /// `classes` are those of the bodies, or class and wall material, as in [`Pair`].
-    fn resist(
-        &self,
-        encounter: &Encounter,
-        classes: [u16; 2],
-        column: &Self::Column,
-        gap: f64,
-    ) -> Resist {
-        let _ = (encounter, classes, column, gap);
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        let _ = (pair, column, gap);
         Resist::default()
+    }
+
+    /// The same of several pairs side by side: to the bit what [`PairTerm::resist`] gives for each.
+    #[inline(always)]
+    fn resist_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+        gap: L,
+    ) -> Resist<L> {
+        let gaps = gap.unpack();
+        let one = |k| self.resist(&pairs.pair(k), columns.column(k), gaps[k]);
+        Resist::pack(pairs.permit, &L::each(one))
     }
 
     /// The impulse of the drag along the line of centres over a slow change of the gap from 0 to
@@ -197,6 +203,11 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.load(pair, &mut column.0) + self.1.load(pair, &mut column.1)
     }
 
+    /// [`crate::Implicit`] goes around a tuple, not into it: what resists is solved for together.
+    const IMPLICIT: bool = {
+        assert!(!A::IMPLICIT && !B::IMPLICIT, "Implicit goes around a tuple, not into it");
+        false
+    };
     const SETTLES: bool = A::SETTLES || B::SETTLES;
     const LANES: bool = A::LANES || B::LANES;
     const ACTS_IN_OVERLAP: bool = A::ACTS_IN_OVERLAP || B::ACTS_IN_OVERLAP;
@@ -281,15 +292,19 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
     }
 
     #[inline(always)]
-    fn resist(
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        self.0.resist(pair, &column.0, gap) + self.1.resist(pair, &column.1, gap)
+    }
+
+    #[inline(always)]
+    fn resist_lanes<L: Lane>(
         &self,
-        encounter: &Encounter,
-        classes: [u16; 2],
-        column: &Self::Column,
-        gap: f64,
-    ) -> Resist {
-        self.0.resist(encounter, classes, &column.0, gap)
-            + self.1.resist(encounter, classes, &column.1, gap)
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+        gap: L,
+    ) -> Resist<L> {
+        let first = self.0.resist_lanes(pairs, &mut Part::<_, First<B::Column>>::of(columns), gap);
+        first + self.1.resist_lanes(pairs, &mut Part::<_, Second<A::Column>>::of(columns), gap)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
@@ -316,6 +331,7 @@ impl<T: PairTerm> PairTerm for Option<T> {
         self.as_ref().map_or_else(Load::default, |term| term.load(pair, column))
     }
 
+    const IMPLICIT: bool = T::IMPLICIT;
     const SETTLES: bool = T::SETTLES;
     const LANES: bool = T::LANES;
     const COUPLES: bool = T::COUPLES;
@@ -387,19 +403,30 @@ impl<T: PairTerm> PairTerm for Option<T> {
         }
     }
 
-    fn resist(
-        &self,
-        encounter: &Encounter,
-        classes: [u16; 2],
-        column: &Self::Column,
-        gap: f64,
-    ) -> Resist {
-        let resist = |term: &T| term.resist(encounter, classes, column, gap);
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        let resist = |term: &T| term.resist(pair, column, gap);
         self.as_ref().map_or_else(Resist::default, resist)
+    }
+
+    #[inline(always)]
+    fn resist_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+        gap: L,
+    ) -> Resist<L> {
+        match self {
+            Some(term) => term.resist_lanes(pairs, columns, gap),
+            None => Resist::none(pairs.permit),
+        }
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {
         self.as_ref().map_or([0.0; 2], |term| term.charge(column, gap))
+    }
+
+    fn impulse<'a>(&self, column: &'a mut Self::Column) -> Option<&'a mut Impulse> {
+        self.as_ref().and_then(|term| term.impulse(column))
     }
 }
 

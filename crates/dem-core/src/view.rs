@@ -16,22 +16,34 @@ pub(crate) struct View<'a> {
     pub(crate) class: &'a [u16],
     pub(crate) id: &'a [u32],
     pub(crate) rolls: &'a [Roll],
+    /// 1/m and 1/I of every class; empty unless the term is implicit.
+    pub(crate) inverse: &'a [[f64; 2]],
     pub(crate) time_step: f64,
     /// How far the velocities lag behind the positions, s.
     pub(crate) lag: f64,
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(p: &'a Particles, rolls: &'a [Roll], time_step: f64, lag: f64) -> Self {
+    pub(crate) fn new(
+        p: &'a Particles,
+        rolls: &'a [Roll],
+        inverse: &'a [[f64; 2]],
+        [time_step, lag]: [f64; 2],
+    ) -> Self {
         let (places, velocities) = (&p.places, &p.velocities);
         let (class, id, classes) = (&p.class, &p.id, p.classes());
-        Self { classes, places, velocities, class, id, rolls, time_step, lag }
+        Self { classes, places, velocities, class, id, rolls, inverse, time_step, lag }
     }
 
     /// Whether the term uses rolling friction.
     #[inline(always)]
     pub(crate) fn rolls(&self) -> bool {
         !self.rolls.is_empty()
+    }
+
+    /// How long the next kick lasts, s.
+    pub(crate) fn kick(&self) -> f64 {
+        0.5 * self.time_step + self.lag
     }
 
     pub(crate) fn inertia(&self, slot: usize) -> f64 {
@@ -129,7 +141,8 @@ impl<'a> View<'a> {
     /// All of one pair.
     pub(crate) fn pair(&self, entry: Entry) -> Pair {
         let geometry = self.geometry::<f64>((), &[entry]);
-        Pairs { view: self, entries: [entry], apart: false, permit: (), geometry }.pair(0)
+        Pairs { view: self, entries: [entry], apart: false, permit: (), geometry: &geometry }
+            .pair(0)
     }
 }
 
@@ -144,7 +157,10 @@ pub(crate) struct Distance<L> {
 
 /// Velocity and spin of particles side by side.
 #[inline(always)]
-fn motion<L: Lane>(permit: L::Permit, of: &L::Each<&Velocity>) -> (Vector<L>, Vector<L>) {
+pub(crate) fn motion<L: Lane>(
+    permit: L::Permit,
+    of: &L::Each<&Velocity>,
+) -> (Vector<L>, Vector<L>) {
     let [vx, vy, vz, _] = L::rows(permit, of, |p| p.v.0);
     let [wx, wy, wz, _] = L::rows(permit, of, |p| p.w.0);
     (Vector { x: vx, y: vy, z: vz }, Vector { x: wx, y: wy, z: wz })

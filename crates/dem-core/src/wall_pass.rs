@@ -109,6 +109,10 @@ fn act<T: PairTerm, B: Boundary>(
     let load = term.load(&pair, &mut memory.column);
     let slot = (wall.slot - chunk.range.start) as usize;
     add_wall(&mut chunk.sums[slot], &load, &pair);
+    if T::IMPLICIT && !load.attention {
+        let place = (List::Wall { memory: k as u32 }, index);
+        chunk.links.meet(view, term, &pair, [wall.slot; 2], place, &mut memory.column);
+    }
     if view.rolls() && touch.gap < 0.0 {
         roll(&mut chunk.rolls[slot], load.rolling);
     }

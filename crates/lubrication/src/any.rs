@@ -182,11 +182,28 @@ impl NormalCurve for AnyNormalCurve {
     }
 
     #[inline]
+    fn charge(&self, gap: f64) -> [f64; 2] {
+        match self {
+            Self::AdamsPerchard1985(curve) => curve.charge(gap),
+            Self::Pitois2000(curve) => curve.charge(gap),
+        }
+    }
+
+    #[inline]
     fn clearance(&self, gap: f64) -> f64 {
         match self {
             Self::AdamsPerchard1985(curve) => curve.clearance(gap),
             Self::Pitois2000(curve) => curve.clearance(gap),
         }
+    }
+
+    #[inline(always)]
+    fn clearances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        if let Some(own) = all_alike!(curves, AnyNormalCurve::Pitois2000, L) {
+            return NormalCurve::clearances(&own, gap);
+        }
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].clearance(gaps[k])), |c| *c)
     }
 
     fn fade(&self) -> Option<f64> {

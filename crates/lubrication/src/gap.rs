@@ -176,6 +176,18 @@ impl Clearance {
         }
     }
 
+    /// [`Clearance::weight_integral`] and [`Clearance::weight`] in overlap.
+    pub(crate) fn weighted(&self, gap: f64) -> [f64; 2] {
+        match self.overlap {
+            Overlap::Fade => {
+                let less = (gap / self.contact).exp_m1();
+                [self.contact * less, 1.0 + less]
+            }
+            Overlap::Full => [gap, 1.0],
+            Overlap::Off => [0.0; 2],
+        }
+    }
+
     /// ∫ weight dS from 0 to an overlap `gap` < 0, m.
     pub(crate) fn weight_integral(&self, gap: f64) -> f64 {
         match self.overlap {

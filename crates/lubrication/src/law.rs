@@ -40,8 +40,22 @@ pub trait NormalCurve: Copy {
         0.0
     }
 
+    /// The clearances of bridges side by side: to the bit what [`NormalCurve::clearance`] gives for
+    /// each.
+    #[inline(always)]
+    fn clearances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].clearance(gaps[k])), |c| *c)
+    }
+
     /// G(S) = ∫ c_n dS from gap 0 to `gap`, N s: the impulse that a slow change of the gap costs.
     fn impulse(&self, gap: f64) -> f64;
+
+    /// G and c_n at `gap`, to rounding, for whoever wants both.
+    #[inline]
+    fn charge(&self, gap: f64) -> [f64; 2] {
+        [self.impulse(gap), self.coefficient(gap)]
+    }
 }
 
 /// A model of the viscous force and torque across the line of centres.

@@ -48,9 +48,23 @@ impl<C: NormalCurve> NormalCurve for Option<C> {
         self.as_ref().map_or(0.0, |curve| curve.clearance(gap))
     }
 
+    #[inline(always)]
+    fn clearances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        if let Some(own) = all::<L, C>(curves) {
+            return C::clearances(&own, gap);
+        }
+        let gaps = gap.unpack();
+        L::pack(gap.permit(), &L::each(|k| curves[k].clearance(gaps[k])), |c| *c)
+    }
+
     #[inline]
     fn impulse(&self, gap: f64) -> f64 {
         self.as_ref().map_or(0.0, |curve| curve.impulse(gap))
+    }
+
+    #[inline]
+    fn charge(&self, gap: f64) -> [f64; 2] {
+        self.as_ref().map_or([0.0; 2], |curve| curve.charge(gap))
     }
 }
 

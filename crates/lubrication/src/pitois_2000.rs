@@ -70,9 +70,16 @@ impl NormalDrag for Pitois2000 {
 }
 
 impl Pitois2000Curve {
+    /// ρ at a clearance.
+    fn ratio(&self, clearance: f64) -> f64 {
+        let slant = (clearance * clearance + self.width_squared).sqrt();
+        // So far away that the square is not a number any more, both are the same.
+        if slant < f64::INFINITY { clearance / slant } else { 1.0 }
+    }
+
     /// ρ at the clearance of contact.
     fn contact_ratio(&self) -> f64 {
-        self.clearance.contact / self.clearance.contact.hypot(self.width_squared.sqrt())
+        self.ratio(self.clearance.contact)
     }
 
     /// c_n at contact, N s/m.
@@ -120,16 +127,44 @@ impl NormalCurve for Pitois2000Curve {
         if gap < 0.0 {
             return self.contact_coefficient() * self.clearance.weight_integral(gap);
         }
-        let s = self.clearance.at(gap);
-        let ratio = s / s.hypot(self.width_squared.sqrt());
-        let edge = (1.0 + self.contact_ratio()) / (1.0 + ratio);
-        let logarithm = (ratio / self.contact_ratio() * edge * edge).ln();
-        self.contact_coefficient() * gap.min(self.clearance.floor()) + self.strength * logarithm
+        let (s, contact) = (self.clearance.at(gap), self.contact_ratio());
+        let ratio = self.ratio(s);
+        let edge = (1.0 + contact) / (1.0 + ratio);
+        let logarithm = self.strength * (ratio / contact * edge * edge).ln();
+        let floor = self.clearance.floor();
+        if floor == 0.0 {
+            return logarithm;
+        }
+        self.contact_coefficient() * gap.min(floor) + logarithm
+    }
+
+    #[inline]
+    fn charge(&self, gap: f64) -> [f64; 2] {
+        let (s, contact) = (self.clearance.at(gap), self.contact_ratio());
+        if gap < 0.0 {
+            let drag = self.contact_coefficient();
+            return self.clearance.weighted(gap).map(|weighted| drag * weighted);
+        }
+        let ratio = self.ratio(s);
+        // X = 1 − ρ without cancellation: b²/(s² + b²) = 1 − ρ².
+        let wetted = self.width_squared / (s * s + self.width_squared) / (1.0 + ratio);
+        let edge = (1.0 + contact) / (1.0 + ratio);
+        let mut impulse = self.strength * Lane::logarithm(ratio / contact * edge * edge);
+        let floor = self.clearance.floor();
+        if floor > 0.0 {
+            impulse += self.contact_coefficient() * gap.min(floor);
+        }
+        [impulse, self.strength / s * wetted * wetted]
     }
 
     #[inline]
     fn clearance(&self, gap: f64) -> f64 {
         self.clearance.at(gap)
+    }
+
+    #[inline(always)]
+    fn clearances<L: Lane>(curves: &L::Each<&Self>, gap: L) -> L {
+        Clearance::of(&L::each(|k| &curves[k].clearance), gap)
     }
 
     fn fade(&self) -> Option<f64> {

@@ -1,92 +1,67 @@
-//! Pairs whose motion is resisted, ready to be solved for.
+//! What is solved for in one pair whose motion is resisted, or in several side by side.
 
-use glam::DVec3;
-
-use super::normal::{Along, Normal};
-use super::shear::{Coupled, Motion, Slip};
+use super::normal::{Along, LINEAR, Normal, STEP, weight};
+use super::shear::Slip;
 use super::{Impulse, Resist};
 use crate::chunk::List;
-use crate::particles::{Class, Velocity};
+use crate::lane::{Lane, Vector};
+use crate::pairs::Geometry;
+use crate::particles::Class;
 
-/// Of a link that is nothing but its own record.
-const NOTHING_MORE: u32 = u32::MAX;
-
-/// A pair as it was read: where it is and how it moved before the kick.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Met {
+/// Pairs as they were read, side by side.
+pub(crate) struct Met<'a, L: Lane> {
+    /// One bit for each pair that becomes a link.
+    pub(crate) which: u32,
     /// Slots of the bodies; the second is that of the first again at a wall.
-    pub(crate) slots: [u32; 2],
-    /// Where the pair's column stands.
+    pub(crate) slots: L::Each<[u32; 2]>,
+    /// Where the pairs' columns stand.
     pub(crate) list: List,
-    pub(crate) index: u32,
-    pub(crate) normal: DVec3,
-    pub(crate) levers: [f64; 2],
-    pub(crate) gap: f64,
-    /// dS/dt.
-    pub(crate) rate: f64,
-    pub(crate) slip: DVec3,
+    pub(crate) index: L::Each<u32>,
+    pub(crate) geometry: &'a Geometry<L>,
+    pub(crate) resist: Resist<L>,
+    pub(crate) impulses: L::Each<Impulse>,
 }
 
-/// What every visit of a pass needs of a pair.
+/// The impulses between two bodies, and what decides them.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Link {
-    pub(crate) slots: [u32; 2],
-    /// Where there is more to it, or [`NOTHING_MORE`].
-    more: u32,
-    /// Whether the impulse along the normal has to be searched for.
-    searched: bool,
-    normal: DVec3,
-    levers: [f64; 2],
-    push: f64,
-    shear: DVec3,
-    along: Normal,
-    slip: Slip,
-}
-
-/// What only the search and the end of the step need of it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Kept {
-    pub(crate) list: List,
-    pub(crate) index: u32,
-    along: Along,
-}
-
-/// What not every link has: a wall, rolling friction, a drag on rolling.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct More {
-    /// Velocity of the wall, m/s; zero between particles.
-    pub(crate) wall: DVec3,
-    couple: DVec3,
-    rolling: DVec3,
-    rolling_limit: f64,
-    rolling_inertia: f64,
-    reduced: f64,
-    coupled: Option<Coupled>,
-}
-
-/// All links of a list.
-#[derive(Debug, Default)]
-pub(crate) struct Links {
-    /// What the impulses are still to be scaled by.
-    pub(crate) share: f64,
-    /// The first link with a wall.
-    pub(crate) walls_from: usize,
-    pub(crate) met: Vec<Met>,
-    pub(crate) links: Vec<Link>,
-    pub(crate) kept: Vec<Kept>,
-    pub(crate) more: Vec<More>,
+pub(crate) struct Link<L> {
+    pub(super) normal: Vector<L>,
+    pub(super) levers: [L; 2],
+    /// 1/m and 1/I of both bodies; a wall does not move.
+    pub(super) inverse: [[L; 2]; 2],
+    pub(super) push: L,
+    pub(super) along: Normal<L>,
+    pub(super) shear: Vector<L>,
+    pub(super) slip: Slip<L>,
+    /// What the turning line of centres adds to the speed of separation, m/s. Until the start it is
+    /// that over h v_t²: |d − h v| grows by v_t² h/(2 |d|).
+    pub(super) turn: L,
+    pub(super) gap: L,
+    /// Of the velocity after the step.
+    pub(super) weight: L,
+    /// The gap up to which the drag has been charged, m.
+    pub(super) charged: L,
+    /// Its impulse up to there; known where it is to be searched for.
+    pub(super) paid: L,
+    pub(super) rate: L,
+    /// The fastest that the bodies may move along their line of centres for the pair to be linear.
+    pub(super) room: L,
+    pub(super) mobility: L,
+    pub(super) dashpot: L,
+    pub(super) pull: L,
 }
 
 /// What a change of impulses amounts to, N s.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Change {
-    pub(crate) changed: f64,
-    pub(crate) all: f64,
+pub(crate) struct Change<L = f64> {
+    pub(crate) changed: L,
+    pub(crate) all: L,
 }
 
-impl std::ops::Add for Change {
+impl<L: Lane> std::ops::Add for Change<L> {
     type Output = Self;
 
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { changed: self.changed + other.changed, all: self.all + other.all }
     }
@@ -107,257 +82,224 @@ impl Inverse<'_> {
 
     /// Of both bodies; a wall does not move.
     #[inline(always)]
-    fn both(&self, [a, b]: [u32; 2]) -> [[f64; 2]; 2] {
+    fn both(&self, [a, b]: [u32; 2]) -> [f64; 4] {
         let one = |slot: u32| self.classes[usize::from(self.class[slot as usize])];
-        [one(a), if a == b { [0.0; 2] } else { one(b) }]
+        let ([m, t], [n, u]) = (one(a), if a == b { [0.0; 2] } else { one(b) });
+        [m, t, n, u]
     }
 }
 
 /// Velocity and spin of a body.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Body {
-    pub(crate) v: DVec3,
-    pub(crate) w: DVec3,
-}
-
-impl From<Velocity> for Body {
-    fn from(velocity: Velocity) -> Self {
-        Self { v: velocity.v.vector(), w: velocity.w.vector() }
-    }
+pub(crate) struct Body<L> {
+    pub(crate) v: Vector<L>,
+    pub(crate) w: Vector<L>,
 }
 
 /// The bodies of a link.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Two {
-    pub(crate) first: Body,
-    pub(crate) second: Body,
+pub(crate) struct Two<L> {
+    pub(crate) first: Body<L>,
+    pub(crate) second: Body<L>,
 }
 
-impl Links {
-    pub(crate) fn clear(&mut self) {
-        self.links.clear();
-        self.kept.clear();
-        self.more.clear();
-    }
-
-    /// Makes a link of a pair that resists. `before` and `kicked` are the velocities before and after
-    /// the kick, that of a wall in the second place.
+impl<L: Lane> Link<L> {
+    /// Of pairs that resist, for impulses that act for `duration` s. Returns too which of them resist
+    /// rolling, one bit each: they have more to them.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "all that a link is made from")]
-    pub(crate) fn add(
-        &mut self,
-        met: &Met,
-        resist: &Resist,
-        impulse: &Impulse,
-        [before, kicked]: [&Two; 2],
+    pub(super) fn new(
+        permit: L::Permit,
+        met: &Met<'_, L>,
         inverse: Inverse<'_>,
-        [duration, drift]: [f64; 2],
-        radii: [f64; 2],
-    ) {
-        let Met { slots, list, index, normal, levers, gap, rate, slip } = *met;
-        let wall = slots[0] == slots[1];
-        let [[mi, ti], [mj, tj]] = inverse.both(slots);
-        let mobility = mi + mj;
-        let v = kicked.first.v - kicked.second.v;
-        let speed = -v.dot(normal);
-        // The line of centres turns during the step: |d − h v| grows by v_t² h/(2 |d|).
-        let sideways = (v.length_squared() - speed * speed).max(0.0);
-        let turn = if wall { 0.0 } else { 0.5 * drift * sideways / (levers[0] + levers[1]) };
-        let (along, linear, searched) =
-            Along::new(resist, [gap, impulse.charged], [rate, turn, speed], duration, mobility);
-        let across = mobility + levers[0] * levers[0] * ti + levers[1] * levers[1] * tj;
-        let [a, b, d] = resist.across;
-        let coupled = b != 0.0 || d != 0.0;
-        let flat = |v: DVec3| v - v.dot(normal) * normal;
-        let mut more = NOTHING_MORE;
-        if wall || coupled || resist.rolling > 0.0 {
-            more = self.more.len() as u32;
-            let [r, q] = radii;
-            let reduced = if wall { r } else { r * q / (r + q) };
-            let mobility = [
-                across,
-                reduced * (levers[0] * ti - levers[1] * tj),
-                reduced * reduced * (ti + tj),
-            ];
-            let turning = reduced * (before.first.w - before.second.w).cross(normal);
-            let motion = Motion { slip, rolling: turning };
-            self.more.push(More {
-                wall: DVec3::ZERO,
-                couple: flat(impulse.couple),
-                rolling: flat(impulse.rolling),
-                rolling_limit: duration * resist.rolling,
-                rolling_inertia: 1.0 / (ti + tj),
-                reduced,
-                coupled: coupled.then(|| Coupled::new(resist.across, motion, duration, mobility)),
-            });
-        }
-        self.links.push(Link {
-            slots,
-            more,
-            searched,
+        duration: f64,
+    ) -> (Self, u32) {
+        let Met { geometry, resist, impulses, .. } = met;
+        let (zero, one) = (L::splat(permit, 0.0), L::splat(permit, 1.0));
+        let (step, any) = (L::splat(permit, duration), L::splat(permit, f64::INFINITY));
+        let both = L::each(|k| inverse.both(met.slots[k]));
+        let [mi, ti, mj, tj] = L::rows(permit, &both, |both| *both);
+        let (mobility, levers, gap) = (mi + mj, geometry.levers, geometry.gap);
+        let [a, b] = levers;
+        let across = mobility + a * a * ti + b * b * tj;
+        let (rate, normal) = (geometry.separation_speed, geometry.normal);
+
+        let stiff = resist.drag + resist.dashpot;
+        let theta = weight(step * stiff * mobility);
+        let before = (one - theta) * step;
+        let [x, y, z, push] =
+            L::rows(permit, impulses, |i| [i.shear.x, i.shear.y, i.shear.z, i.normal]);
+        let charged = L::pack(permit, impulses, |impulse| impulse.charged);
+        // A bridge that is there from the start is charged from its gap on; one that forms later was
+        // met somewhere on the way of the step before.
+        let first = duration < geometry.time_step;
+        let formed = if first { gap } else { gap - before * rate };
+        let charged = charged.if_less(any, charged, formed);
+        let slope = theta * step * stiff;
+        let along = Normal {
+            offset: resist.drag * (gap - charged) + before * resist.dashpot * rate,
+            slope,
+            answer: one / (one + slope * mobility),
+        };
+
+        let [slip, coupling, rolling] = resist.across;
+        let coupled = coupling.most(-coupling) + rolling;
+        let slip = zero.if_less(coupled, zero, slip);
+        let theta_across = weight(step * slip * across);
+        let slope_across = theta_across * step * slip;
+        let slip = Slip {
+            offset: geometry.slip * ((one - theta_across) * step * slip),
+            slope: slope_across,
+            answer: one / (one + slope_across * across),
+        };
+        // The plane across the line of centres has turned a little.
+        let shear = Vector { x, y, z };
+        let shear = shear - normal * shear.dot(normal);
+        let room = resist.clearance * L::splat(permit, LINEAR / duration);
+        let link = Self {
             normal,
             levers,
-            push: impulse.normal,
-            // The plane across the line of centres has turned a little.
-            shear: flat(impulse.shear),
-            along: linear,
-            slip: Slip::new(if coupled { 0.0 } else { a }, slip, duration, across),
-        });
-        self.kept.push(Kept { list, index, along });
-    }
-
-    /// Takes the velocities of the walls, by the index of the pair with one.
-    pub(crate) fn meet_walls(&mut self, velocity: impl Fn(u32) -> DVec3) {
-        for k in self.walls_from..self.links.len() {
-            if let Some(more) = self.more.get_mut(self.links[k].more as usize) {
-                more.wall = velocity(self.kept[k].index);
-            }
-        }
-    }
-
-    /// The wall's velocity, or none.
-    #[inline(always)]
-    pub(crate) fn wall(&self, link: &Link) -> DVec3 {
-        self.more.get(link.more as usize).map_or(DVec3::ZERO, |more| more.wall)
-    }
-
-    /// The sums that scale a start, for the velocities after the kick; what the pair remembers is
-    /// given to `pushed`.
-    #[inline(always)]
-    pub(crate) fn start(
-        &self,
-        k: usize,
-        velocities: &Two,
-        pushed: &mut Two,
-        inverse: Inverse<'_>,
-    ) -> [f64; 2] {
-        let link = &self.links[k];
-        let (speed, slip) = link.motion(velocities);
-        let [a, b] = link.along.start(link.push, speed);
-        let [c, d] = link.slip.start(link.shear, slip);
-        link.give(pushed, link.push, link.shear, inverse);
-        let turned = self.more.get(link.more as usize).map_or(0.0, |more| {
-            let couple = more.reduced * link.normal.cross(more.couple) + more.rolling;
-            link.turn(pushed, couple, inverse);
-            couple.dot(velocities.first.w - velocities.second.w)
-        });
-        [a + c + turned, b + d]
-    }
-
-    /// Scales what all pairs remember; the impulses of most of them when they are next looked at.
-    pub(crate) fn scale(&mut self, share: f64) {
-        self.share = share;
-        for more in &mut self.more {
-            more.couple *= share;
-            more.rolling *= share;
-        }
-    }
-
-    /// One visit of a pass: changes the impulses so that they fit the velocities, and the velocities
-    /// with them. `charge` gives the drag's impulse up to a gap, and the drag there.
-    #[inline(always)]
-    pub(crate) fn relax(
-        &mut self,
-        k: usize,
-        two: &mut Two,
-        inverse: Inverse<'_>,
-        charge: impl FnOnce(&Kept, f64, f64) -> f64,
-    ) -> Change {
-        let link = &mut self.links[k];
-        link.push *= self.share;
-        link.shear *= self.share;
-        let (speed, slip) = link.motion(two);
-        let push = if link.searched {
-            charge(&self.kept[k], speed, link.push)
-        } else {
-            link.along.fit(speed, link.push)
+            inverse: [[mi, ti], [mj, tj]],
+            push,
+            along,
+            shear,
+            slip,
+            turn: L::splat(permit, 0.5) / (a + b),
+            gap,
+            weight: theta,
+            charged,
+            paid: zero,
+            rate,
+            room: zero.if_less(resist.drag, room, any),
+            mobility,
+            dashpot: resist.dashpot,
+            pull: resist.pull,
         };
-        let mut shear = link.slip.change(slip, link.shear);
-        if link.more != NOTHING_MORE {
-            let more = &mut self.more[link.more as usize];
-            shear += more.relax(link, two, slip, inverse);
-        }
-        let change = push - link.push;
-        link.give(two, change, shear, inverse);
-        link.push = push;
-        link.shear += shear;
-        Change { changed: change.abs() + shear.length(), all: push.abs() + link.shear.length() }
+        (link, zero.less_bits(coupled + resist.rolling))
     }
 
-    /// Remembers a link after the step `drift`.
-    #[inline(always)]
-    pub(crate) fn close(&self, k: usize, two: &Two, drift: f64, impulse: &mut Impulse) {
-        let link = &self.links[k];
-        let (speed, _) = link.motion(two);
-        impulse.charged = self.kept[k].along.charged(speed, drift);
-        impulse.normal = link.push;
-        impulse.shear = link.shear;
-        let more = self.more.get(link.more as usize);
-        impulse.couple = more.map_or(DVec3::ZERO, |more| more.couple);
-        impulse.rolling = more.map_or(DVec3::ZERO, |more| more.rolling);
-    }
-}
-
-impl Kept {
-    /// As [`Along::search`].
-    pub(crate) fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
-        self.along.search(speed, now, charge)
-    }
-}
-
-impl Link {
     /// Speed of separation along the normal, and slip.
     #[inline(always)]
-    fn motion(&self, two: &Two) -> (f64, DVec3) {
-        let (p, q) = (&two.first, &two.second);
+    pub(super) fn motion(&self, two: &Two<L>) -> (L, Vector<L>) {
+        let (p, q, [a, b]) = (&two.first, &two.second, self.levers);
         let v = p.v - q.v;
         let along = v.dot(self.normal);
-        let turning = (self.levers[0] * p.w + self.levers[1] * q.w).cross(self.normal);
-        (-along, v - along * self.normal + turning)
+        let turning = (p.w * a + q.w * b).cross(self.normal);
+        (-along, v - self.normal * along + turning)
     }
 
     /// Gives impulses to both bodies: one that drives them apart, one across on the first.
     #[inline(always)]
-    fn give(&self, two: &mut Two, push: f64, shear: DVec3, inverse: Inverse<'_>) {
-        let [[mi, ti], [mj, tj]] = inverse.both(self.slots);
-        let force = shear - push * self.normal;
+    pub(super) fn give(&self, two: &mut Two<L>, push: L, shear: Vector<L>) {
+        let ([[mi, ti], [mj, tj]], [a, b]) = (self.inverse, self.levers);
+        let force = shear - self.normal * push;
         let arm = self.normal.cross(shear);
-        two.first.v += mi * force;
-        two.second.v -= mj * force;
-        two.first.w += ti * self.levers[0] * arm;
-        two.second.w += tj * self.levers[1] * arm;
+        two.first.v = two.first.v + force * mi;
+        two.second.v = two.second.v - force * mj;
+        two.first.w = two.first.w + arm * (ti * a);
+        two.second.w = two.second.w + arm * (tj * b);
     }
 
-    /// Turns both bodies against each other.
-    fn turn(&self, two: &mut Two, couple: DVec3, inverse: Inverse<'_>) {
-        let [[_, ti], [_, tj]] = inverse.both(self.slots);
-        two.first.w += ti * couple;
-        two.second.w -= tj * couple;
+    /// Which pairs move so fast that they have to be searched for, one bit each.
+    #[inline(always)]
+    pub(super) fn is_fast(&self, speed: L) -> u32 {
+        let permit = speed.permit();
+        let (rate, after) = (self.rate, speed + self.turn);
+        let fastest = rate.most(-rate).most(after.most(-after));
+        let pulled = self.dashpot * rate.most(after);
+        let bound = self.pull * L::splat(permit, 0.5);
+        self.room.less_bits(fastest)
+            | bound.less_bits(pulled) & L::splat(permit, 0.0).less_bits(self.dashpot)
+    }
+
+    /// The sums that scale a start, for the velocities after the kick; what the pair remembers is
+    /// given to `pushed`. Settles too how far the line of centres turns in the `drift`.
+    #[inline(always)]
+    pub(super) fn start(&mut self, two: &Two<L>, pushed: &mut Two<L>, drift: f64) -> [L; 2] {
+        let (speed, slip) = self.motion(two);
+        let permit = speed.permit();
+        let (zero, v) = (L::splat(permit, 0.0), two.first.v - two.second.v);
+        let sideways = (v.dot(v) - speed * speed).most(zero);
+        self.turn = self.turn * (L::splat(permit, drift) * sideways);
+        self.along.offset = self.along.offset + self.along.slope * self.turn;
+        let [a, b] = self.along.start(self.push, speed);
+        let [c, d] = self.slip.start(self.shear, slip);
+        self.give(pushed, self.push, self.shear);
+        [a + c, b + d]
+    }
+
+    /// Scales the impulses; those across are what `slip` resists.
+    #[inline(always)]
+    pub(super) fn scale(&mut self, share: f64) {
+        let share = L::splat(self.push.permit(), share);
+        self.push = self.push * share;
+        self.shear = self.shear * share;
+    }
+
+    /// Changes the impulses to `push` along the line of centres and by `shear` across it.
+    #[inline(always)]
+    pub(super) fn change(&mut self, two: &mut Two<L>, push: L, shear: Vector<L>) -> Change<L> {
+        let change = push - self.push;
+        self.give(two, change, shear);
+        self.push = push;
+        self.shear = self.shear + shear;
+        Change {
+            changed: change.most(-change) + shear.dot(shear).sqrt(),
+            all: push.most(-push) + self.shear.dot(self.shear).sqrt(),
+        }
+    }
+
+    /// How far the gap is charged for after impulses that acted for `duration` s.
+    #[inline(always)]
+    pub(super) fn charge_to(&self, two: &Two<L>, duration: f64) -> L {
+        let (speed, _) = self.motion(two);
+        self.gap + self.weight * L::splat(speed.permit(), duration) * (speed + self.turn)
     }
 }
 
-impl More {
-    /// Changes what is resisted beside the slip; returns what that changes in the shear impulse.
-    fn relax(&mut self, link: &Link, two: &mut Two, slip: DVec3, inverse: Inverse<'_>) -> DVec3 {
-        let mut shear = DVec3::ZERO;
-        if let Some(coupled) = &self.coupled {
-            let spin = two.first.w - two.second.w;
-            let y = Motion { slip, rolling: self.reduced * spin.cross(link.normal) };
-            let now = Motion { slip: link.shear, rolling: self.couple };
-            let change = coupled.change(y, now);
-            // The slip's own impulse has no slope then and would only fade.
-            shear = change.slip + link.shear;
-            self.couple += change.rolling;
-            link.turn(two, self.reduced * link.normal.cross(change.rolling), inverse);
-        }
-        if self.rolling_limit > 0.0 {
-            let spin = two.first.w - two.second.w;
-            let rolling = spin - spin.dot(link.normal) * link.normal;
-            let wanted = self.rolling - self.rolling_inertia * rolling;
-            let change = wanted.clamp_length_max(self.rolling_limit) - self.rolling;
-            self.rolling += change;
-            link.turn(two, change, inverse);
-        }
-        shear
+impl Link<f64> {
+    /// The impulse along the line of centres of a pair that has to be searched for; `charge` gives
+    /// the drag's impulse up to a gap, and the drag there.
+    #[inline(never)]
+    pub(super) fn search(
+        &self,
+        speed: f64,
+        duration: f64,
+        charge: &dyn Fn(f64) -> [f64; 2],
+    ) -> f64 {
+        let Self { gap, paid, rate, turn, weight, mobility, dashpot, pull, room, .. } = *self;
+        let along = Along { gap, paid, rate, turn, weight, duration, dashpot, pull, mobility };
+        along.search(speed, self.push, STEP / LINEAR * room, charge)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_free_pair_decays_like_the_exponential() {
+        let (drag, h, mass) = (0.15, 1e-3, 2e-4);
+        let mut geometry = Geometry::<f64>::none(());
+        geometry.normal.x = 1.0;
+        geometry.separation_speed = 0.7;
+        geometry.levers = [1.0, 0.0];
+        let met = Met::<f64> {
+            which: 1,
+            slots: [[0, 0]],
+            list: List::Inside,
+            index: [0],
+            geometry: &geometry,
+            resist: Resist { drag, clearance: f64::INFINITY, ..Resist::default() },
+            impulses: [Impulse::NONE],
+        };
+        let inverse = Inverse { classes: &[[1.0 / mass, 0.0]], class: &[0] };
+        let (link, more) = Link::new((), &met, inverse, h);
+        assert_eq!(more, 0);
+        let p = link.along.fit(0.7, link.push);
+        let left = 0.7 + p / mass;
+        assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
+        let charged = Link { turn: 0.0, paid: drag * link.charged, ..link };
+        let found = charged.search(0.7, h, &|gap| [drag * gap, drag]);
+        assert!((found / p - 1.0).abs() < 1e-12);
     }
 }

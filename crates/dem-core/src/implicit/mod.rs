@@ -1,57 +1,101 @@
 //! Resistances that are solved for at the end of the step instead of being taken from its start.
 
+mod colours;
+mod eight;
 mod link;
+mod loose;
 mod normal;
 mod shear;
 mod term;
 
 use glam::DVec3;
 
-pub(crate) use link::{Body, Change, Inverse, Kept, Links, Met, Two};
+use crate::lane::Lane;
+
+pub(crate) use colours::Colours;
+pub(crate) use eight::{Charge, EIGHT, Eight, Task, Work};
+pub(crate) use link::{Change, Inverse, Met};
+pub(crate) use loose::Loose;
 pub use term::Implicit;
 
-/// What resists the relative motion of a pair, for [`Implicit`].
+/// What resists the relative motion of a pair, or of several side by side, for [`Implicit`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Resist {
+pub struct Resist<L = f64> {
     /// Drag c_n along the line of centres at the gap asked for, N s/m.
-    pub drag: f64,
+    pub drag: L,
     /// The gap changes by much less than this, m, while c_n hardly does; 0 where that is not known.
-    pub clearance: f64,
+    pub clearance: L,
     /// Dashpot γ of the contact, N s/m.
-    pub dashpot: f64,
+    pub dashpot: L,
     /// The strongest pull of the dashpot, N: a contact that pushes only has it pull at most as much
     /// as its spring pushes.
-    pub pull: f64,
+    pub pull: L,
     /// Drag across the line of centres, N s/m: slip A, coupling B, rolling D, with A D ≥ B².
-    pub across: [f64; 3],
+    pub across: [L; 3],
     /// The largest torque of rolling friction, N m.
-    pub rolling: f64,
+    pub rolling: L,
 }
 
-impl Resist {
-    /// Whether anything resists.
-    pub(crate) fn any(&self) -> bool {
-        self.drag > 0.0 || self.dashpot > 0.0 || self.across != [0.0; 3] || self.rolling > 0.0
+impl<L: Lane> Resist<L> {
+    /// Nothing resists.
+    #[must_use]
+    #[inline(always)]
+    pub fn none(permit: L::Permit) -> Self {
+        let none = L::splat(permit, 0.0);
+        Self {
+            drag: none,
+            clearance: none,
+            dashpot: none,
+            pull: none,
+            across: [none; 3],
+            rolling: none,
+        }
+    }
+
+    /// Puts single ones side by side.
+    #[inline(always)]
+    pub fn pack(permit: L::Permit, each: &L::Each<Resist>) -> Self {
+        Self {
+            drag: L::pack(permit, each, |r| r.drag),
+            clearance: L::pack(permit, each, |r| r.clearance),
+            dashpot: L::pack(permit, each, |r| r.dashpot),
+            pull: L::pack(permit, each, |r| r.pull),
+            across: [
+                L::pack(permit, each, |r| r.across[0]),
+                L::pack(permit, each, |r| r.across[1]),
+                L::pack(permit, each, |r| r.across[2]),
+            ],
+            rolling: L::pack(permit, each, |r| r.rolling),
+        }
+    }
+
+    /// One bit for each pair in which anything resists.
+    #[inline(always)]
+    pub(crate) fn any(&self) -> u32 {
+        let [slip, coupling, rolling] = self.across;
+        let all = self.drag + self.dashpot + self.rolling + slip + rolling;
+        let zero = L::splat(all.permit(), 0.0);
+        zero.less_bits(all + coupling.most(-coupling))
     }
 }
 
-impl std::ops::Add for Resist {
+impl<L: Lane> std::ops::Add for Resist<L> {
     type Output = Self;
 
     /// Both resist together. A clearance of the part without drag says nothing.
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let clearance = match (self.drag > 0.0, other.drag > 0.0) {
-            (true, false) => self.clearance,
-            (false, true) => other.clearance,
-            _ => self.clearance.min(other.clearance),
-        };
+        let permit = self.drag.permit();
+        let (zero, any) = (L::splat(permit, 0.0), L::splat(permit, f64::INFINITY));
+        let mine = zero.if_less(self.drag, self.clearance, any);
+        let others = zero.if_less(other.drag, other.clearance, any);
+        let ([a, b, c], [d, e, f]) = (self.across, other.across);
         Self {
             drag: self.drag + other.drag,
-            clearance,
+            clearance: mine.least(others),
             dashpot: self.dashpot + other.dashpot,
             pull: self.pull + other.pull,
-            across: std::array::from_fn(|k| self.across[k] + other.across[k]),
+            across: [a + d, b + e, c + f],
             rolling: self.rolling + other.rolling,
         }
     }
@@ -99,4 +143,56 @@ pub struct Passes {
     pub passes: u64,
     /// Steps that stopped at the largest number of passes.
     pub at_most: u64,
+}
+
+/// The links of a list.
+#[derive(Debug, Default)]
+pub(crate) struct Links {
+    /// What the impulses are still to be scaled by.
+    pub(crate) share: f64,
+    /// Those behind what is taken are left over from an earlier step: to write all of them anew would
+    /// take longer than to use them.
+    all_eights: Vec<Eight>,
+    /// How many places for links among eights are taken.
+    taken: usize,
+    pub(crate) loose: Vec<Loose>,
+    more: Vec<loose::More>,
+}
+
+impl Links {
+    pub(crate) fn clear(&mut self) {
+        self.taken = 0;
+        self.loose.clear();
+        self.more.clear();
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.taken == 0 && self.loose.is_empty()
+    }
+
+    /// Makes links of pairs of which no two have a body in common.
+    #[inline(always)]
+    pub(crate) fn add<L: Lane>(
+        &mut self,
+        permit: L::Permit,
+        met: &Met<'_, L>,
+        inverse: Inverse<'_>,
+        duration: f64,
+    ) {
+        let Self { all_eights, taken, .. } = self;
+        let more = eight::add(all_eights, taken, permit, met, inverse, duration);
+        self.add_loose(met, more, inverse, duration);
+    }
+
+    /// The links that lie side by side.
+    pub(crate) fn eights(&mut self) -> &mut [Eight] {
+        &mut self.all_eights[..self.taken.div_ceil(EIGHT)]
+    }
+
+    /// Calls `remember` with the index and the impulses of every link that lies among others.
+    pub(crate) fn close_eights(&self, mut remember: impl FnMut(u32, Impulse)) {
+        for eight in &self.all_eights[..self.taken.div_ceil(EIGHT)] {
+            eight.impulses().for_each(|(index, impulse)| remember(index, impulse));
+        }
+    }
 }

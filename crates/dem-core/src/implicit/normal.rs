@@ -1,15 +1,22 @@
 //! The impulse along the line of centres that one pair wants.
 
-use super::Resist;
+use crate::lane::Lane;
 
 /// A pair is taken to be linear over a step in which its gap changes by less than this share of
 /// its clearance: the error is below 1e-6 of the drag's impulse.
-const LINEAR: f64 = 2e-3;
-/// Of the search for a speed, relative to the speeds before.
+pub(super) const LINEAR: f64 = 1.5e-3;
+/// The search for a speed ends with a step that changes the gap by less than this share of its
+/// clearance: what is left is the square of it.
+pub(super) const STEP: f64 = 1e-5;
+/// Of the search between bounds, relative to the speeds before.
 const TOLERANCE: f64 = 1e-13;
 const MOST_ITERATIONS: u32 = 60;
+/// Steps of Newton's method without bounds.
+const TRIES: u32 = 4;
 /// From this g on a pair is backward Euler's.
 const STIFF: f64 = 4.0;
+/// Below this g its series is used.
+const SMALL: f64 = 0.3;
 
 /// The weight θ of the velocity after the step, from g = h c/m. While g ≤ 1 it is fitted: the decay
 /// of a free pair is exp(−g) and its terminal speed is force over drag, both exactly.
@@ -20,41 +27,66 @@ const STIFF: f64 = 4.0;
 ///
 /// Above that it goes to 1, which it is from g = 4 on (backward Euler): every pass then lowers the
 /// energy, however stiff the pairs and however far the passes are from their end.
-#[inline]
-pub(super) fn weight(g: f64) -> f64 {
-    if g < 0.3 {
-        let g2 = g * g;
-        return 0.5 + g * (1.0 / 12.0 - g2 * (1.0 / 720.0 - g2 * (1.0 / 30_240.0)));
+#[inline(always)]
+pub(super) fn weight<L: Lane>(g: L) -> L {
+    let number = |value: f64| L::splat(g.permit(), value);
+    let (one, stiff, small) = (number(1.0), number(STIFF), number(SMALL));
+    let g2 = g * g;
+    let series = number(1.0 / 12.0) - g2 * (number(1.0 / 720.0) - g2 * number(1.0 / 30_240.0));
+    let weight = g.if_less(small, number(0.5) + g * series, one);
+    if g.less_bits(stiff) == g.less_bits(small) {
+        return weight;
     }
-    if g >= STIFF {
-        return 1.0;
+    let fitted = one / (one - exponential(-g)) - one / g;
+    let fade = ((stiff - g) / number(STIFF - 1.0)).least(one);
+    let between = g.if_less(stiff, one - (one - fitted) * fade, one);
+    g.if_less(small, weight, between)
+}
+
+/// exp x = (exp x/16)^16 for −4 <= x <= 0, by its Taylor series.
+#[inline(always)]
+fn exponential<L: Lane>(x: L) -> L {
+    let x = x * L::splat(x.permit(), 1.0 / 16.0);
+    let mut sum = L::splat(x.permit(), 1.0);
+    for k in (1..=11).rev() {
+        sum = sum * x * L::splat(x.permit(), 1.0 / f64::from(k)) + L::splat(x.permit(), 1.0);
     }
-    let fitted = 1.0 / (1.0 - (-g).exp()) - 1.0 / g;
-    1.0 - (1.0 - fitted) * ((STIFF - g) / (STIFF - 1.0)).min(1.0)
+    for _ in 0..4 {
+        sum = sum * sum;
+    }
+    sum
 }
 
 /// The impulse p = −(offset + slope a) of a pair along its line of centres, a the speed at which it
 /// separates; p > 0 drives the bodies apart.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Normal {
-    pub(super) offset: f64,
-    pub(super) slope: f64,
-    pub(super) answer: f64,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Normal<L> {
+    pub(super) offset: L,
+    pub(super) slope: L,
+    /// 1/(1 + slope (1/m_i + 1/m_j)).
+    pub(super) answer: L,
 }
 
-impl Normal {
+impl<L: Lane> Normal<L> {
     /// The impulse that fits the speed of separation, which `now` is a part of.
     #[inline(always)]
-    pub(super) fn fit(&self, speed: f64, now: f64) -> f64 {
+    pub(super) fn fit(&self, speed: L, now: L) -> L {
         now - (self.offset + self.slope * speed + now) * self.answer
     }
 
     /// The terms of the sums that scale a start: p (a + offset/slope) and p²/slope.
     #[inline(always)]
-    pub(super) fn start(&self, now: f64, speed: f64) -> [f64; 2] {
-        let soft = if self.slope > 0.0 { 1.0 / self.slope } else { 0.0 };
+    pub(super) fn start(&self, now: L, speed: L) -> [L; 2] {
+        let soft = softness(self.slope);
         [now * (speed + soft * self.offset), soft * now * now]
     }
+}
+
+/// 1/slope, 0 where nothing resists.
+#[inline(always)]
+pub(super) fn softness<L: Lane>(slope: L) -> L {
+    let (zero, one) = (L::splat(slope.permit(), 0.0), L::splat(slope.permit(), 1.0));
+    zero.if_less(slope, one / slope, zero)
 }
 
 /// What decides that impulse, whatever the gap does in the step:
@@ -67,78 +99,50 @@ impl Normal {
 /// to the speed of separation along the normal at the step's start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Along {
-    gap: f64,
-    charged: f64,
-    rate: f64,
-    turn: f64,
-    weight: f64,
-    duration: f64,
-    dashpot: f64,
-    pull: f64,
+    pub(super) gap: f64,
+    /// G(charged).
+    pub(super) paid: f64,
+    pub(super) rate: f64,
+    pub(super) turn: f64,
+    pub(super) weight: f64,
+    pub(super) duration: f64,
+    pub(super) dashpot: f64,
+    pub(super) pull: f64,
     /// 1/m_i + 1/m_j, 1/kg.
-    mobility: f64,
+    pub(super) mobility: f64,
 }
 
 impl Along {
-    /// `rate` is u₀, `turn` κ, `speed` a after the kick. Returns the linear pair too, and whether the
-    /// pair has to be searched for because it is not.
-    #[inline(always)]
-    pub(super) fn new(
-        resist: &Resist,
-        [gap, charged]: [f64; 2],
-        [rate, turn, speed]: [f64; 3],
-        duration: f64,
-        mobility: f64,
-    ) -> (Self, Normal, bool) {
-        let Resist { drag, dashpot, pull, clearance, .. } = *resist;
-        let weight = weight(duration * (drag + dashpot) * mobility);
-        let fresh = gap - (1.0 - weight) * duration * rate;
-        let charged = if charged.is_finite() { charged } else { fresh };
-        let slope = weight * duration * (drag + dashpot);
-        let before = (1.0 - weight) * duration * dashpot * rate;
-        let fastest = speed + turn;
-        let travel = duration * rate.abs().max(fastest.abs());
-        let searched = (drag > 0.0 && travel > LINEAR * clearance)
-            || (dashpot > 0.0 && dashpot * rate.max(fastest) > 0.5 * pull);
-        let normal = Normal {
-            offset: drag * (gap - charged) + before + slope * turn,
-            slope,
-            answer: 1.0 / (1.0 + slope * mobility),
-        };
-        let along = Self { gap, charged, rate, turn, weight, duration, dashpot, pull, mobility };
-        (along, normal, searched)
-    }
-
-    /// How far the gap is charged for after the step `drift`, with the speed of separation `speed`.
-    pub(super) fn charged(&self, speed: f64, drift: f64) -> f64 {
-        self.gap + self.weight * drift * (speed + self.turn)
-    }
-
     /// The impulse that fits the speed of separation `speed`, which `now` is a part of; `charge`
-    /// gives the drag's impulse from contact to a gap, and the drag there. Newton's method between
-    /// bounds: what is searched for grows with the speed, by 1/mobility at least.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn search(&self, speed: f64, now: f64, charge: impl Fn(f64) -> [f64; 2]) -> f64 {
+    /// gives the drag's impulse from contact to a gap, and the drag there.
+    ///
+    /// Newton's method from that speed, whose error is squared in every step, until a step is at
+    /// most `small`. Where that does not do, between bounds: what is searched for grows with the
+    /// speed, by 1/mobility at least.
+    pub(super) fn search(
+        &self,
+        speed: f64,
+        now: f64,
+        small: f64,
+        charge: &dyn Fn(f64) -> [f64; 2],
+    ) -> f64 {
         let own = speed - now * self.mobility;
-        let [paid, _] = charge(self.charged);
-        let (step, before) = (self.weight * self.duration, (1.0 - self.weight) * self.rate);
-        let lack = |a: f64| {
-            let u = a + self.turn;
-            let [to, drag] = charge(self.gap + step * u);
-            let pull = self.dashpot * (before + self.weight * u);
-            let capped = pull > self.pull;
-            let (pull, rise) = if capped { (self.pull, 0.0) } else { (pull, step * self.dashpot) };
-            let resisted = to - paid + self.duration * pull;
-            [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
-        };
-        let other = own - self.mobility * lack(own)[0];
+        let mut a = speed;
+        for _ in 0..TRIES {
+            let [f, rise] = self.lack(own, a, charge);
+            let next = a - f / rise;
+            if (next - a).abs() <= small && self.is_capped(a) == self.is_capped(next) {
+                return (next - own) / self.mobility;
+            }
+            a = next;
+        }
+        let other = own - self.mobility * self.lack(own, own, charge)[0];
         let (mut low, mut high) = (own.min(other), own.max(other));
         let small = TOLERANCE * (own.abs() + self.rate.abs());
         // Not `clamp`, which panics where a number is not finite.
-        let mut a = speed.max(low).min(high);
+        a = speed.max(low).min(high);
         for _ in 0..MOST_ITERATIONS {
-            let [f, rise] = lack(a);
+            let [f, rise] = self.lack(own, a, charge);
             if f > 0.0 {
                 high = a
             } else {
@@ -153,6 +157,28 @@ impl Along {
             }
         }
         (a - own) / self.mobility
+    }
+
+    /// What is wrong with a speed a of separation, N s, where the pair's own impulse alone changes it
+    /// from `own`, and how that grows with a.
+    fn lack(&self, own: f64, a: f64, charge: &dyn Fn(f64) -> [f64; 2]) -> [f64; 2] {
+        let step = self.weight * self.duration;
+        let [to, drag] = charge(self.gap + step * (a + self.turn));
+        let capped = self.is_capped(a);
+        let (pull, rise) =
+            if capped { (self.pull, 0.0) } else { (self.pull_at(a), step * self.dashpot) };
+        let resisted = to - self.paid + self.duration * pull;
+        [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
+    }
+
+    /// The dashpot's pull without a bound, N.
+    fn pull_at(&self, a: f64) -> f64 {
+        let before = (1.0 - self.weight) * self.rate;
+        self.dashpot * (before + self.weight * (a + self.turn))
+    }
+
+    fn is_capped(&self, a: f64) -> bool {
+        self.pull_at(a) > self.pull
     }
 }
 
@@ -169,19 +195,5 @@ mod tests {
         assert_eq!(weight(1e9), 1.0);
         // g = 1: 1/(1 − 1/e) − 1 by hand
         assert!((weight(1.0) - 0.581_976_706_869_326_4).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_free_pair_decays_like_the_exponential() {
-        let (drag, h, mass) = (0.15, 1e-3, 2e-4);
-        let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
-        let gaps = [1.0, f64::INFINITY];
-        let (along, normal, searched) = Along::new(&resist, gaps, [0.7, 0.0, 0.7], h, 1.0 / mass);
-        assert!(!searched);
-        let p = normal.fit(0.7, 0.0);
-        let left = 0.7 + p / mass;
-        assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
-        let found = along.search(0.7, 0.0, |gap| [drag * gap, drag]);
-        assert!((found / p - 1.0).abs() < 1e-12);
     }
 }

@@ -1,51 +1,42 @@
 //! The impulses across the line of centres that one pair wants.
 
-use glam::DVec3;
-
-use super::normal::weight;
+use super::normal::{softness, weight};
+use crate::lane::{Lane, Vector};
 
 /// Slip and rolling velocity of a pair, or the impulses on them.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Motion {
-    pub(super) slip: DVec3,
-    pub(super) rolling: DVec3,
+    pub(super) slip: Vector<f64>,
+    pub(super) rolling: Vector<f64>,
 }
 
 /// The impulse F = −θ h A u − offset of a pair whose slip u alone is resisted.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slip {
-    pub(super) slope: f64,
-    pub(super) answer: f64,
-    pub(super) offset: DVec3,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slip<L> {
+    pub(super) slope: L,
+    /// 1/(1 + slope M), M what an impulse does to the slip, 1/kg.
+    pub(super) answer: L,
+    pub(super) offset: Vector<L>,
 }
 
-impl Slip {
-    /// `before` is the slip before the kick, `mobility` what an impulse does to it, 1/kg.
-    #[inline(always)]
-    pub(super) fn new(drag: f64, before: DVec3, duration: f64, mobility: f64) -> Self {
-        let weight = weight(duration * drag * mobility);
-        let slope = weight * duration * drag;
-        let offset = (1.0 - weight) * duration * drag * before;
-        Self { slope, answer: 1.0 / (1.0 + slope * mobility), offset }
-    }
-
+impl<L: Lane> Slip<L> {
     /// By how much the impulse `now` has to change to fit the slip.
     #[inline(always)]
-    pub(super) fn change(&self, slip: DVec3, now: DVec3) -> DVec3 {
-        -self.answer * (self.offset + self.slope * slip + now)
+    pub(super) fn change(&self, slip: Vector<L>, now: Vector<L>) -> Vector<L> {
+        -((self.offset + slip * self.slope + now) * self.answer)
     }
 
     /// The sums that scale a start, as in [`super::normal::Normal::start`].
     #[inline(always)]
-    pub(super) fn start(&self, now: DVec3, slip: DVec3) -> [f64; 2] {
-        let soft = if self.slope > 0.0 { 1.0 / self.slope } else { 0.0 };
-        [now.dot(slip) + soft * now.dot(self.offset), soft * now.length_squared()]
+    pub(super) fn start(&self, now: Vector<L>, slip: Vector<L>) -> [L; 2] {
+        let soft = softness(self.slope);
+        [now.dot(slip) + soft * now.dot(self.offset), soft * now.dot(now)]
     }
 }
 
 /// What decides the impulses where slip and rolling are resisted: (F, Q) = −h C ((1 − θ) y₀ + θ y) for
 /// the velocities y = (u, q), C the resistance (A, B; B, D).
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Coupled {
     /// θ h (A, B, D).
     slope: [f64; 3],
@@ -63,8 +54,8 @@ impl Coupled {
         let slope = across.map(|c| weight * duration * c);
         let rest = (1.0 - weight) * duration;
         let offset = Motion {
-            slip: rest * (a * before.slip + b * before.rolling),
-            rolling: rest * (b * before.slip + d * before.rolling),
+            slip: (before.slip * a + before.rolling * b) * rest,
+            rolling: (before.slip * b + before.rolling * d) * rest,
         };
         let [a, b, d] = slope;
         let [p, q] = [1.0 + a * m + b * both, a * both + b * turn];
@@ -76,10 +67,10 @@ impl Coupled {
     /// By how much the impulses `now` have to change to fit the velocities `y`.
     pub(super) fn change(&self, y: Motion, now: Motion) -> Motion {
         let [a, b, d] = self.slope;
-        let slip = self.offset.slip + a * y.slip + b * y.rolling + now.slip;
-        let rolling = self.offset.rolling + b * y.slip + d * y.rolling + now.rolling;
+        let slip = self.offset.slip + y.slip * a + y.rolling * b + now.slip;
+        let rolling = self.offset.rolling + y.slip * b + y.rolling * d + now.rolling;
         let [p, q, r, s] = self.answer;
-        Motion { slip: -(p * slip + q * rolling), rolling: -(r * slip + s * rolling) }
+        Motion { slip: -(slip * p + rolling * q), rolling: -(slip * r + rolling * s) }
     }
 }
 
@@ -87,30 +78,41 @@ impl Coupled {
 mod tests {
     use super::*;
 
+    const NONE: Vector<f64> = Vector { x: 0.0, y: 0.0, z: 0.0 };
+    const ALONG_X: Vector<f64> = Vector { x: 1.0, ..NONE };
+
+    fn length(v: Vector<f64>) -> f64 {
+        v.dot(v).sqrt()
+    }
+
     #[test]
     fn a_fit_is_a_fixed_point() {
         // Against a direct solution: impulses that change the velocities, which they then fit.
-        let before = Motion { slip: DVec3::X, rolling: 0.3 * DVec3::X };
+        let before = Motion { slip: ALONG_X, rolling: ALONG_X * 0.3 };
         let (across, mobility) = ([2.0, -0.4, 1.0], [3.0, 0.5, 7.0]);
         let coupled = Coupled::new(across, before, 0.1, mobility);
         let after = |now: Motion| Motion {
-            slip: before.slip + mobility[0] * now.slip + mobility[1] * now.rolling,
-            rolling: before.rolling + mobility[1] * now.slip + mobility[2] * now.rolling,
+            slip: before.slip + now.slip * mobility[0] + now.rolling * mobility[1],
+            rolling: before.rolling + now.slip * mobility[1] + now.rolling * mobility[2],
         };
-        let now = coupled.change(after(Motion::default()), Motion::default());
+        let now = coupled.change(before, Motion { slip: NONE, rolling: NONE });
         let again = coupled.change(after(now), now);
-        assert!(again.slip.length() + again.rolling.length() < 1e-15);
+        assert!(length(again.slip) + length(again.rolling) < 1e-15);
         assert!(now.slip.x < 0.0 && after(now).slip.x > 0.0, "braked, not turned back");
     }
 
     #[test]
     fn without_coupling_both_are_the_same() {
-        let before = DVec3::new(0.3, -0.2, 0.5);
-        let slip = Slip::new(2.0, before, 0.1, 3.0);
-        let motion = Motion { slip: before, rolling: DVec3::ZERO };
-        let coupled = Coupled::new([2.0, 0.0, 0.0], motion, 0.1, [3.0, 0.5, 7.0]);
-        let alone = slip.change(before, DVec3::ZERO);
-        let change = coupled.change(motion, Motion::default());
-        assert!((alone - change.slip).length() < 1e-15 && change.rolling.length() < 1e-15);
+        let before = Vector { x: 0.3, y: -0.2, z: 0.5 };
+        let (drag, h, mobility) = (2.0, 0.1, 3.0);
+        let weight = weight(h * drag * mobility);
+        let slope = weight * h * drag;
+        let offset = before * ((1.0 - weight) * h * drag);
+        let slip = Slip { slope, answer: 1.0 / (1.0 + slope * mobility), offset };
+        let motion = Motion { slip: before, rolling: NONE };
+        let coupled = Coupled::new([drag, 0.0, 0.0], motion, h, [mobility, 0.5, 7.0]);
+        let alone = slip.change(before, NONE);
+        let change = coupled.change(motion, Motion { slip: NONE, rolling: NONE });
+        assert!(length(alone - change.slip) < 1e-15 && length(change.rolling) < 1e-15);
     }
 }

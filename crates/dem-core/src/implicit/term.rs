@@ -113,14 +113,18 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
     }
 
     #[inline(always)]
-    fn resist(
+    fn resist(&self, pair: &Pair, column: &Self::Column, gap: f64) -> Resist {
+        self.0.resist(pair, &column.0, gap)
+    }
+
+    #[inline(always)]
+    fn resist_lanes<L: Lane>(
         &self,
-        encounter: &Encounter,
-        classes: [u16; 2],
-        column: &Self::Column,
-        gap: f64,
-    ) -> Resist {
-        self.0.resist(encounter, classes, &column.0, gap)
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Self::Column>,
+        gap: L,
+    ) -> Resist<L> {
+        self.0.resist_lanes(pairs, &mut Part::<_, First<Impulse>>::of(columns), gap)
     }
 
     fn charge(&self, column: &Self::Column, gap: f64) -> [f64; 2] {

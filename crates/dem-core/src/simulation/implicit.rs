@@ -9,17 +9,15 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::{Simulation, parallel};
-use crate::chunk::{Chunk, List};
-use crate::implicit::{Body, Change, Inverse, Kept, Links, Met, Passes, Two};
+use crate::chunk::{Chunk, List, Note, WallPair};
+use crate::implicit::{Change, Charge, Eight, Impulse, Inverse, Links, Loose, Passes, Task, Work};
 use crate::integrate::{Moved, drift};
-use crate::particles::{Row, Velocity};
-use crate::view::View;
-use crate::{Boundary, DVec3, Encounter, PairTerm, wall_pass};
+use crate::particles::Velocity;
+use crate::{Boundary, DVec3, PairTerm, wall_pass};
 
-/// Passes stop when they change the impulses by less than this share of them.
+/// Rounds stop when their second half changes the impulses by less than this share of them.
 const SETTLED: f64 = 1e-3;
-const LEAST_PASSES: u32 = 2;
-const MOST_PASSES: u32 = 50;
+const MOST_ROUNDS: u32 = 25;
 
 impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// How hard the implicit resistances were to find so far.
@@ -31,17 +29,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// v(n+½) = v(n−½) + `kick` F/m + impulses over `kick`; x(n+1) = x(n) + `h` v(n+½).
     pub(super) fn write_implicit(&mut self, kick: f64, h: f64) -> Moved {
         let start = Instant::now();
-        self.before.clone_from(&self.particles.velocities);
         self.integrate(kick, 0.0);
         self.profile.integration += start.elapsed();
         let start = Instant::now();
-        self.gather(kick, h);
-        if self.chunks.iter().any(|c| !c.links.links.is_empty() || !c.links_across.links.is_empty())
-        {
+        if self.chunks.iter().any(|c| !c.links.is_empty() || !c.links_across.is_empty()) {
             self.meet_walls(h);
-            self.warm();
-            self.relax();
-            self.close(h);
+            self.resist([kick, h]);
         }
         self.profile.resistance += start.elapsed();
         let start = Instant::now();
@@ -64,23 +57,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
     }
 
-    /// Every pair that resists, with the velocities before and after the kick.
-    fn gather(&mut self, duration: f64, drift: f64) {
-        let mut chunks = std::mem::take(&mut self.chunks);
-        let mut view = self.view();
-        view.velocities = &self.before;
-        let (term, boundary) = (&self.term, &self.boundary);
-        let inverse = Inverse { classes: &self.inverse, class: &self.particles.class };
-        let kicked = &self.particles.velocities;
-        let times = [duration, drift];
-        let gathering = Gathering { view: &view, kicked, term, inverse, times };
-        super::each(&mut chunks, |chunk| {
-            gathering.pairs(chunk);
-            gathering.walls(chunk, boundary);
-        });
-        self.chunks = chunks;
-    }
-
     /// Walls have the velocity of the half step too.
     fn meet_walls(&mut self, h: f64) {
         let time = self.time();
@@ -92,95 +68,97 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
     }
 
-    /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
-    /// best multiple of them as a guess of this step's.
-    fn warm(&mut self) {
-        let Self { chunks, particles, before: pushed, inverse, lists, settings, .. } = self;
-        let inverse = Inverse { classes: inverse, class: &particles.class };
-        let velocities = &mut particles.velocities;
-        pushed.fill(Velocity::new(DVec3::ZERO, DVec3::ZERO));
-        let size = lists.chunk_size;
-        let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
-        let one = |(chunk, pushed): (&Chunk<T::Column>, &mut [Velocity])| {
-            let Chunk { links, range, .. } = chunk;
-            (0..links.links.len()).fold([0.0; 2], |sums, k| {
-                let slots = links.links[k].slots;
-                let two = take(velocities, slots, 0, links.wall(&links.links[k]));
-                let mut push = take(pushed, slots, range.start, DVec3::ZERO);
-                let own = links.start(k, &two, &mut push, inverse);
-                put(pushed, slots, range.start, push);
-                add(sums, own)
-            })
-        };
-        let inside: Vec<[f64; 2]> = if parallel(chunks.len(), settings.threads) {
-            chunks.par_iter().zip(pushed.par_chunks_mut(size)).map(one).collect()
-        } else {
-            chunks.iter().zip(pushed.chunks_mut(size)).map(one).collect()
-        };
-        let mut sums = inside.into_iter().fold([0.0; 2], add);
-        for links in chunks.iter().map(|chunk| &chunk.links_across) {
-            for (k, link) in links.links.iter().enumerate() {
-                let two = take(velocities, link.slots, 0, DVec3::ZERO);
-                let mut push = take(pushed, link.slots, 0, DVec3::ZERO);
-                sums = add(sums, links.start(k, &two, &mut push, inverse));
-                put(pushed, link.slots, 0, push);
-            }
-        }
-        let moved: f64 = pushed
-            .iter()
-            .zip(&particles.class)
-            .map(|(d, &class)| {
-                let [m, i] = inverse.classes[usize::from(class)];
-                d.v.vector().length_squared() / m + d.w.vector().length_squared() / i
-            })
-            .sum();
-        let below = moved + sums[1];
-        let share = if below > 0.0 { (-sums[0] / below).clamp(0.0, 1.0) } else { 0.0 };
-        for (velocity, push) in particles.velocities.iter_mut().zip(pushed.iter()) {
-            let (v, w) = (push.v.vector(), push.w.vector());
-            velocity.v.add(Row::new(share * v).0);
-            velocity.w.add(Row::new(share * w).0);
-        }
-        for chunk in chunks {
-            chunk.links.scale(share);
-            chunk.links_across.scale(share);
-        }
-    }
-
-    fn relax(&mut self) {
-        self.passes.steps += 1;
-        for pass in 1..=MOST_PASSES {
-            self.passes.passes += 1;
-            let forward = pass % 2 == 1;
-            let change = if forward {
-                let inside = self.relax_inside(forward);
-                inside + self.relax_across(forward)
-            } else {
-                let across = self.relax_across(forward);
-                across + self.relax_inside(forward)
+    /// The pairs that wanted attention, now that the term has settled them.
+    pub(super) fn meet_settled(&mut self, settled: &[(u32, Note)]) {
+        let mut chunks = std::mem::take(&mut self.chunks);
+        let (view, term, boundary) = (self.view(), &self.term, &self.boundary);
+        for &(number, note) in settled {
+            let chunk = &mut chunks[number as usize];
+            let encounter = chunk.encounter(&view, &note);
+            let index = note.index as usize;
+            let (links, column, slots, pair) = match note.list {
+                List::Wall { memory } => {
+                    let wall = &mut chunk.walls[index];
+                    let memory = &mut wall.memories[memory as usize];
+                    let (touch, normal) = (memory.touch, memory.touch.normal);
+                    let slot = wall.slot;
+                    let pair = wall_pass::pair(&view, boundary, slot, encounter, &touch, normal);
+                    (&mut chunk.links, &mut memory.column, [slot; 2], pair)
+                }
+                list => {
+                    let (links, list) = if list == List::Inside {
+                        (&mut chunk.links, &mut chunk.inside)
+                    } else {
+                        (&mut chunk.links_across, &mut chunk.across)
+                    };
+                    let entry = list.active[index];
+                    (links, &mut list.columns[index], entry, view.pair(entry))
+                }
             };
-            if pass >= LEAST_PASSES && change.changed <= SETTLED * change.all {
-                return;
+            if !term.idle(&encounter, column) {
+                links.meet(&view, term, &pair, slots, (note.list, note.index), column);
             }
         }
-        self.passes.at_most += 1;
+        self.chunks = chunks;
     }
 
-    fn relax_inside(&mut self, forward: bool) -> Change {
+    /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
+    fn resist(&mut self, times: [f64; 2]) {
+        self.passes.steps += 1;
+        // Most steps are like the one before. If that took a single round, what a chunk remembers is
+        // written down while its links are still near.
+        let at_once = self.rounds == 1;
+        self.rounds = 0;
+        loop {
+            self.rounds += 1;
+            let first = self.rounds == 1;
+            self.inside(times, |solving, chunk, velocities| {
+                if first {
+                    solving.start_inside(chunk, velocities);
+                }
+                solving.pass_inside(chunk, velocities, true)
+            });
+            if first {
+                self.start_across(times);
+            }
+            self.across(times, true);
+            let across = self.across(times, false);
+            let inside = self.inside(times, |solving, chunk, velocities| {
+                let change = solving.pass_inside(chunk, velocities, false);
+                if first && at_once {
+                    solving.close_inside(chunk, velocities);
+                }
+                change
+            });
+            let change = inside + across;
+            let settled = change.changed <= SETTLED * change.all;
+            if settled || self.rounds == MOST_ROUNDS {
+                self.passes.at_most += u64::from(!settled);
+                break;
+            }
+        }
+        self.passes.passes += 2 * u64::from(self.rounds);
+        if !at_once || self.rounds > 1 {
+            self.inside(times, |solving, chunk, velocities| {
+                solving.close_inside(chunk, velocities);
+                Change::default()
+            });
+        }
+        self.close_across(times);
+    }
+
+    /// Does something with every chunk and its velocities.
+    fn inside(
+        &mut self,
+        times: [f64; 2],
+        work: impl Fn(&Solving<'_, T>, &mut Chunk<T::Column>, &mut [Velocity]) -> Change + Sync + Send,
+    ) -> Change {
         let Self { chunks, particles, term, lists, settings, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
-        let term = &*term;
-        let one = |(chunk, velocities): (&mut Chunk<T::Column>, &mut [Velocity])| {
-            let Chunk { links, inside, walls, range, .. } = chunk;
-            let column = |kept: &Kept| match kept.list {
-                List::Wall { memory } => {
-                    &walls[kept.index as usize].memories[memory as usize].column
-                }
-                _ => &inside.columns[kept.index as usize],
-            };
-            pass(term, links, column, velocities, range.start, inverse, forward)
-        };
+        let solving = Solving { term, inverse, times };
         let velocities = &mut particles.velocities;
+        let one =
+            |(chunk, velocities): (&mut _, &mut [Velocity])| work(&solving, chunk, velocities);
         let changes: Vec<Change> = if parallel(chunks.len(), settings.threads) {
             let parts = velocities.par_chunks_mut(lists.chunk_size);
             chunks.par_iter_mut().zip(parts).map(one).collect()
@@ -191,183 +169,166 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         changes.into_iter().fold(Change::default(), |a, b| a + b)
     }
 
-    fn relax_across(&mut self, forward: bool) -> Change {
-        let Self { chunks, particles, term, inverse, .. } = self;
+    /// As [`Solving::start_inside`] for the pairs across chunks, all with one share.
+    fn start_across(&mut self, times: [f64; 2]) {
+        let Self { chunks, particles, term, inverse, pushed, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
+        let solving = Solving { term: &*term, inverse, times };
+        let lists = chunks.iter_mut().map(|chunk| &mut chunk.links_across);
+        solving.start(lists, &mut particles.velocities, pushed, 0);
+    }
+
+    /// A pass over the pairs across chunks.
+    fn across(&mut self, [duration, _]: [f64; 2], forward: bool) -> Change {
+        let Self { chunks, particles, term, .. } = self;
         let velocities = &mut particles.velocities[..];
-        let mut one = |chunk: &mut Chunk<T::Column>| {
+        let one = |change: Change, chunk: &mut Chunk<T::Column>| {
             let Chunk { links_across, across, .. } = chunk;
-            let column = |kept: &Kept| &across.columns[kept.index as usize];
-            pass(term, links_across, column, velocities, 0, inverse, forward)
+            let charge =
+                |loose: &Loose, gap: f64| term.charge(&across.columns[loose.index as usize], gap);
+            change + links_across.pass_loose(velocities, 0, duration, &charge, forward)
         };
-        let change = Change::default();
         if forward {
-            chunks.iter_mut().fold(change, |change, chunk| change + one(chunk))
+            chunks.iter_mut().fold(Change::default(), one)
         } else {
-            chunks.iter_mut().rev().fold(change, |change, chunk| change + one(chunk))
+            chunks.iter_mut().rev().fold(Change::default(), one)
         }
     }
 
-    /// Writes the impulses back to the columns of the pairs.
-    fn close(&mut self, drift: f64) {
+    fn close_across(&mut self, [duration, _]: [f64; 2]) {
         let Self { chunks, particles, term, .. } = self;
         let (term, velocities) = (&*term, &particles.velocities);
         super::each(chunks, |chunk| {
-            let Chunk { links, links_across, inside, across, walls, .. } = chunk;
-            for (links, list) in [(links, inside), (links_across, across)] {
-                for (k, link) in links.links.iter().enumerate() {
-                    let kept = links.kept[k];
-                    let two = take(velocities, link.slots, 0, links.wall(link));
-                    let index = kept.index as usize;
-                    let column = match kept.list {
-                        List::Wall { memory } => &mut walls[index].memories[memory as usize].column,
-                        _ => &mut list.columns[index],
-                    };
-                    if let Some(impulse) = term.impulse(column) {
-                        links.close(k, &two, drift, impulse);
-                    }
-                }
-            }
+            let Chunk { links_across, across, .. } = chunk;
+            links_across.close_loose(velocities, 0, duration, |loose, impulse| {
+                remember(term, &mut across.columns[loose.index as usize], impulse);
+            });
         });
     }
 }
 
-/// The two bodies of a link, a wall in the place of the second where both slots are the same.
-#[inline(always)]
-fn take(velocities: &[Velocity], [a, b]: [u32; 2], start: u32, wall: DVec3) -> Two {
-    let body = |slot: u32| Body::from(velocities[(slot - start) as usize]);
-    let second = if a == b { Body { v: wall, w: DVec3::ZERO } } else { body(b) };
-    Two { first: body(a), second }
-}
-
-#[inline(always)]
-fn put(velocities: &mut [Velocity], [a, b]: [u32; 2], start: u32, two: Two) {
-    let mut set = |slot: u32, body: Body| {
-        velocities[(slot - start) as usize] = Velocity::new(body.v, body.w);
-    };
-    if a != b {
-        set(b, two.second);
+fn remember<T: PairTerm>(term: &T, column: &mut T::Column, impulse: Impulse) {
+    if let Some(own) = term.impulse(column) {
+        *own = impulse;
     }
-    set(a, two.first);
 }
 
-/// One pass over a list.
-fn pass<'a, T: PairTerm>(
-    term: &T,
-    links: &mut Links,
-    column: impl Fn(&Kept) -> &'a T::Column,
-    velocities: &mut [Velocity],
-    start: u32,
-    inverse: Inverse<'_>,
-    forward: bool,
-) -> Change
-where
-    T::Column: 'a,
-{
-    let count = links.links.len();
-    let mut change = Change::default();
-    for n in 0..count {
-        let k = if forward { n } else { count - 1 - n };
-        let (slots, wall) = (links.links[k].slots, links.wall(&links.links[k]));
-        let mut two = take(velocities, slots, start, wall);
-        let search = |kept: &Kept, speed: f64, now: f64| {
-            kept.search(speed, now, |gap| term.charge(column(kept), gap))
-        };
-        change = change + links.relax(k, &mut two, inverse, search);
-        put(velocities, slots, start, two);
-    }
-    links.share = 1.0;
-    change
-}
-
-/// What links are made from.
-struct Gathering<'a, T> {
-    view: &'a View<'a>,
-    kicked: &'a [Velocity],
+/// What the impulses of a step are found with.
+struct Solving<'a, T> {
     term: &'a T,
     inverse: Inverse<'a>,
     /// Duration of the impulses, and of the drift after them, s.
     times: [f64; 2],
 }
 
-impl<T: PairTerm> Gathering<'_, T> {
-    /// The pairs of particles that acted in the read half.
-    fn pairs(&self, chunk: &mut Chunk<T::Column>) {
-        let view = self.view;
-        let Chunk { inside, across, links, links_across, .. } = chunk;
-        for (list, links) in [(inside, links), (across, links_across)] {
-            links.clear();
-            let met = std::mem::take(&mut links.met);
-            for met in &met {
-                let [a, b] = met.slots.map(|slot| slot as usize);
-                let encounter = view.encounter(met.slots, met.gap);
-                let classes = [view.class[a], view.class[b]];
-                let column = &mut list.columns[met.index as usize];
-                let both = |of: &[Velocity]| Two { first: of[a].into(), second: of[b].into() };
-                let (before, kicked) = (both(view.velocities), both(self.kicked));
-                let radii = [view.places[a].r, view.places[b].r];
-                self.link(links, met, &encounter, classes, column, [&before, &kicked], radii);
-            }
-            links.met = met;
-        }
+impl<T: PairTerm> Solving<'_, T> {
+    /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
+    /// best multiple of them as a guess of this step's.
+    fn start_inside(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
+        let Chunk { links, range, pushed, .. } = chunk;
+        self.start([links], velocities, pushed, range.start);
     }
 
-    fn walls<B: Boundary>(&self, chunk: &mut Chunk<T::Column>, boundary: &B) {
-        let (view, term) = (self.view, self.term);
-        let Chunk { walls, links, .. } = chunk;
-        links.walls_from = links.links.len();
-        let there = walls.iter_mut().enumerate().filter(|(_, w)| boundary.is_present(w.part));
-        for (index, wall) in there {
-            for k in 0..wall.memories.len() {
-                let touch = wall.memories[k].touch;
-                let nearest = k == 0;
-                let encounter = Encounter { nearest, ..wall_pass::meeting(view, wall, &touch) };
-                let (slot, part) = (wall.slot, wall.part);
-                let column = &mut wall.memories[k].column;
-                if term.idle(&encounter, column) {
-                    continue;
-                }
-                let before = touch.normal;
-                let pair = wall_pass::pair(view, boundary, slot, encounter, &touch, before);
-                let met = Met {
-                    slots: [slot; 2],
-                    list: List::Wall { memory: k as u32 },
-                    index: index as u32,
-                    normal: pair.normal,
-                    levers: pair.levers,
-                    gap: touch.gap,
-                    rate: pair.separation_speed,
-                    slip: pair.slip,
-                };
-                let second = Body { v: boundary.velocity(part), w: DVec3::ZERO };
-                let of = |all: &[Velocity]| Two { first: all[slot as usize].into(), second };
-                let (before, kicked) = (of(view.velocities), of(self.kicked));
-                let classes = [pair.first_class, pair.second_class];
-                let both = [&before, &kicked];
-                self.link(links, &met, &encounter, classes, column, both, pair.radii);
-            }
-        }
-    }
-
-    #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "one loop body in two places")]
-    fn link(
+    /// `first` is the slot of the first of the velocities; `pushed` is scratch.
+    fn start<'l>(
         &self,
-        links: &mut Links,
-        met: &Met,
-        encounter: &Encounter,
-        classes: [u16; 2],
-        column: &mut T::Column,
-        velocities: [&Two; 2],
-        radii: [f64; 2],
+        lists: impl IntoIterator<Item = &'l mut Links>,
+        velocities: &mut [Velocity],
+        pushed: &mut Vec<Velocity>,
+        first: u32,
     ) {
-        let Some(&mut impulse) = self.term.impulse(column) else { return };
-        // The middle of what the gap is expected to be charged for in this step.
-        let gap = if impulse.charged.is_finite() { impulse.charged } else { met.gap };
-        let gap = gap + 0.5 * self.times[0] * met.rate;
-        let resist = self.term.resist(encounter, classes, column, gap);
-        if resist.any() {
-            links.add(met, &resist, &impulse, velocities, self.inverse, self.times, radii);
+        let [_, drift] = self.times;
+        pushed.clear();
+        pushed.resize(velocities.len(), Velocity::new(DVec3::ZERO, DVec3::ZERO));
+        let mut sums = [0.0; 2];
+        let mut started = Vec::new();
+        for links in lists {
+            let task = Task::Start { drift };
+            let own = work(task, links.eights(), velocities, pushed, first, &|_, _| [0.0; 2]);
+            let loose = links.start_loose(velocities, pushed, first, drift);
+            sums = std::array::from_fn(|k| sums[k] + (own[k] + loose[k]));
+            started.push(links);
         }
+        let Inverse { classes, class } = self.inverse;
+        let moved =
+            pushed.iter().zip(&class[first as usize..]).fold(0.0, |moved, (push, &class)| {
+                let [m, i] = classes[usize::from(class)];
+                moved + push.v.vector().length_squared() / m + push.w.vector().length_squared() / i
+            });
+        let below = moved + sums[1];
+        let share = if below > 0.0 { (-sums[0] / below).clamp(0.0, 1.0) } else { 0.0 };
+        for (velocity, push) in velocities.iter_mut().zip(pushed) {
+            velocity.v.add(push.v.0.map(|v| share * v));
+            velocity.w.add(push.w.0.map(|w| share * w));
+        }
+        started.into_iter().for_each(|links| links.scale(share));
     }
+
+    /// A pass over the pairs inside a chunk and with walls.
+    fn pass_inside(
+        &self,
+        chunk: &mut Chunk<T::Column>,
+        velocities: &mut [Velocity],
+        forward: bool,
+    ) -> Change {
+        let Self { term, times: [duration, _], .. } = *self;
+        let Chunk { links, inside, walls, range, .. } = chunk;
+        let charge_loose =
+            |loose: &Loose, gap: f64| term.charge(column(loose, walls, &inside.columns), gap);
+        let charge = |index: u32, gap: f64| term.charge(&inside.columns[index as usize], gap);
+        let (first, task) = (range.start, Task::Pass { duration, share: links.share, forward });
+        let one_by_one = |links: &mut Links, velocities: &mut [Velocity]| {
+            links.pass_loose(velocities, first, duration, &charge_loose, forward)
+        };
+        let mut change = Change::default();
+        if !forward {
+            change = one_by_one(links, velocities);
+        }
+        let [changed, all] = work(task, links.eights(), velocities, &mut [], first, &charge);
+        change = change + Change { changed, all };
+        if forward {
+            change = change + one_by_one(links, velocities);
+        }
+        change
+    }
+
+    /// Writes the impulses inside a chunk and with walls back to the columns of the pairs.
+    fn close_inside(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
+        let Self { term, times: [duration, _], .. } = *self;
+        let Chunk { links, inside, walls, range, .. } = chunk;
+        let first = range.start;
+        let task = Task::Close { duration };
+        work(task, links.eights(), velocities, &mut [], first, &|_, _| [0.0; 2]);
+        links.close_eights(|index, impulse| {
+            remember(term, &mut inside.columns[index as usize], impulse);
+        });
+        links.close_loose(velocities, first, duration, |loose, impulse| {
+            let index = loose.index as usize;
+            let column = match loose.list {
+                List::Wall { memory } => &mut walls[index].memories[memory as usize].column,
+                _ => &mut inside.columns[index],
+            };
+            remember(term, column, impulse);
+        });
+    }
+}
+
+/// The column of a link inside a chunk or with a wall.
+fn column<'a, C>(loose: &Loose, walls: &'a [WallPair<C>], inside: &'a [C]) -> &'a C {
+    match loose.list {
+        List::Wall { memory } => &walls[loose.index as usize].memories[memory as usize].column,
+        _ => &inside[loose.index as usize],
+    }
+}
+
+/// Does a task for links that lie side by side.
+fn work(
+    task: Task,
+    eights: &mut [Eight],
+    velocities: &mut [Velocity],
+    pushed: &mut [Velocity],
+    first: u32,
+    charge: &Charge<'_>,
+) -> [f64; 2] {
+    Work { task, eights, velocities, pushed, first, charge, sums: &mut Default::default() }.run()
 }

@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 
 use pendular_capillary::ForceCurve;
-use pendular_dem_core::{Geometry, Lane, Loads};
+use pendular_dem_core::{Geometry, Lane, Loads, Resist};
 use pendular_lubrication::{NormalCurve, Resistance, TangentialCurve};
 
 use super::shelf::Far;
@@ -139,6 +139,14 @@ impl<L: Lane> Pulls<L> {
             coupling: coupling * weight,
             rolling: rolling * weight,
         }
+    }
+
+    /// Their drags alone, with the clearances over which those along the line of centres change.
+    #[inline(always)]
+    pub(super) fn resist(&self, clearance: L) -> Resist<L> {
+        let Self { drag, slip, coupling, rolling, .. } = *self;
+        let none = Resist::none(drag.permit());
+        Resist { drag, clearance, across: [slip, coupling, rolling], ..none }
     }
 
     /// What bridges do, given their forces; their pull alone unless they `drag` too.

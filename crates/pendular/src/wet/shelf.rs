@@ -2,7 +2,7 @@
 //! goes through, and in their order.
 
 use pendular_capillary::ForceCurve;
-use pendular_dem_core::{Columns, EachColumn, Lane, Pairs};
+use pendular_dem_core::{Columns, EachColumn, Lane, Pairs, Resist};
 use pendular_lubrication::{NormalCurve, TangentialCurve};
 
 use super::act::{Pull, Pulls, Row};
@@ -122,14 +122,67 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         if pairs.apart { self.apart(&seats, gap) } else { self.overlapping(&seats, gap) }
     }
 
+    /// What resists in pairs side by side; `None` if any has no bridge, or if only some gaps are
+    /// open.
+    #[inline(always)]
+    pub(super) fn resist<L: Lane>(
+        &self,
+        columns: &mut impl Columns<Hold>,
+        gap: L,
+    ) -> Option<Resist<L>> {
+        let permit = gap.permit();
+        let seats = L::each(|k| columns.column(k).seat as usize);
+        let closed = gap.less_bits(L::splat(permit, 0.0));
+        if closed == 0 {
+            let far = self.all_far::<L>(&seats)?;
+            let clearance = N::clearances(&L::each(|k| &far[k].curves.1), gap);
+            return Some(Pulls::apart(&far, gap).resist(clearance));
+        }
+        let (pulls, fade) = self.at_contact(&seats, gap)?;
+        let clearance = L::splat(permit, 1.0) / fade;
+        (closed.count_ones() as usize == L::WIDTH).then(|| pulls.resist(clearance))
+    }
+
+    /// The same of one pair; nothing without a bridge.
+    #[inline]
+    pub(super) fn resist_one(&self, hold: &Hold, gap: f64) -> Resist {
+        let known = self.resist::<f64>(&mut &mut hold.clone(), gap);
+        let beyond = |far: &Far<C, N, S>| {
+            Pulls::pack((), &[Pull::at(&far.curves, gap)]).resist(far.curves.1.clearance(gap))
+        };
+        known.or_else(|| self.held(hold).map(beyond)).unwrap_or_default()
+    }
+
+    /// Capillary tension alone, as in [`Shelf::pulls`].
+    #[inline(always)]
+    pub(super) fn tensions<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Hold>,
+    ) -> Option<L> {
+        let (permit, gap) = (pairs.permit, pairs.geometry.gap);
+        let seats = L::each(|k| columns.column(k).seat as usize);
+        if pairs.apart {
+            let far = self.all_far::<L>(&seats)?;
+            let rupture = L::pack(permit, &far, |far| far.rupture);
+            let curves = L::each(|k| &far[k].curves.0);
+            return (!rupture.any_less(gap)).then(|| C::forces(&curves, gap));
+        }
+        let rows = self.all_contact::<L>(&seats)?;
+        let [tension, _, _, fade] = L::rows(permit, &rows, |row| row.0);
+        (!L::splat(permit, 0.0).any_less(gap * fade)).then_some(tension)
+    }
+
     #[inline(always)]
     fn overlapping<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
+        self.at_contact(seats, gap).map(|(pulls, _)| pulls)
+    }
+
+    /// The forces in overlap by those at contact, and how the drags fade, 1/m.
+    #[inline(always)]
+    fn at_contact<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<(Pulls<L>, L)> {
         let permit = gap.permit();
-        let first = self.contact.get(seats[0])?;
-        let mut rows = L::each(|_| first);
-        for k in 1..L::WIDTH {
-            rows[k] = self.contact.get(seats[k])?;
-        }
+        let rows = self.all_contact::<L>(seats)?;
         let zero = L::splat(permit, 0.0);
         let [tension, drag, slip, fade] = L::rows(permit, &rows, |row| row.0);
         let exponent = gap * fade;
@@ -142,20 +195,37 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             let each = L::each(of);
             turning = [0, 1].map(|side: usize| L::pack(permit, &each, |one| one[side]));
         }
-        Some(Pulls::faded([tension, drag, slip], turning, exponent))
+        Some((Pulls::faded([tension, drag, slip], turning, exponent), fade))
     }
 
     #[inline(always)]
     fn apart<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
+        let far = self.all_far::<L>(seats)?;
+        if L::pack(gap.permit(), &far, |far| far.rupture).any_less(gap) {
+            return None;
+        }
+        Some(Pulls::apart(&far, gap))
+    }
+
+    #[inline(always)]
+    fn all_contact<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<&Row>> {
+        let first = self.contact.get(seats[0])?;
+        let mut rows = L::each(|_| first);
+        for k in 1..L::WIDTH {
+            rows[k] = self.contact.get(seats[k])?;
+        }
+        Some(rows)
+    }
+
+    #[inline(always)]
+    #[expect(clippy::type_complexity, reason = "what is kept, of each")]
+    fn all_far<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<&Far<C, N, S>>> {
         let first = self.far.get(seats[0])?;
         let mut far = L::each(|_| first);
         for k in 1..L::WIDTH {
             far[k] = self.far.get(seats[k])?;
         }
-        if L::pack(gap.permit(), &far, |far| far.rupture).any_less(gap) {
-            return None;
-        }
-        Some(Pulls::apart(&far, gap))
+        Some(far)
     }
 
     /// The forces of one pair; `None` without a bridge or beyond its static rupture distance.
@@ -169,20 +239,6 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         }
         let far = self.far.get(seat)?;
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
-    }
-
-    /// Drag along the line of centres, resistances across it and the inverse length over which they
-    /// fade, of a pair in overlap; `None` without a bridge or where the curves have to be asked.
-    #[inline]
-    pub(super) fn fading(&self, hold: &Hold, gap: f64) -> Option<(f64, [f64; 3], f64)> {
-        let seat = hold.seat as usize;
-        let Row([_, drag, slip, fade]) = *self.contact.get(seat)?;
-        if fade < 0.0 {
-            return None;
-        }
-        let [coupling, rolling] = self.turning.get(seat).copied().unwrap_or_default();
-        let weight = (fade * gap).exp();
-        Some((weight * drag, [slip, coupling, rolling].map(|c| weight * c), fade))
     }
 
     /// What is kept of a pair's bridge.

@@ -57,8 +57,14 @@ where
         pairs: &Pairs<'_, L>,
         columns: &mut impl Columns<Hold>,
     ) -> Loads<L> {
+        if !self.drags {
+            return match self.shelf.tensions(pairs, columns) {
+                Some(tension) => Loads { tension, ..Loads::none(pairs.permit) },
+                None => self.look_apart(pairs, columns),
+            };
+        }
         match self.shelf.pulls(pairs, columns) {
-            Some(pulls) => pulls.act(&pairs.geometry, self.drags),
+            Some(pulls) => pulls.act(pairs.geometry, self.drags),
             None => self.look_apart(pairs, columns),
         }
     }
@@ -159,28 +165,27 @@ where
         self.drags = false;
     }
 
+    fn resist(&self, _: &Pair, column: &Hold, gap: f64) -> Resist {
+        self.shelf.resist_one(column, gap)
+    }
+
     #[inline(always)]
-    fn resist(&self, _: &Encounter, _: [u16; 2], column: &Hold, gap: f64) -> Resist {
-        if gap < 0.0
-            && let Some((drag, across, fade)) = self.shelf.fading(column, gap)
-        {
-            let clearance = if fade > 0.0 { 1.0 / fade } else { f64::INFINITY };
-            return Resist { drag, clearance, across, ..Resist::default() };
-        }
-        let Some(far) = self.shelf.held(column) else { return Resist::default() };
-        let (_, normal, tangential) = &far.curves;
-        let across = tangential.resistance(gap);
-        Resist {
-            drag: normal.coefficient(gap),
-            clearance: normal.clearance(gap),
-            across: [across.slip, across.coupling, across.rolling],
-            ..Resist::default()
-        }
+    fn resist_lanes<L: Lane>(
+        &self,
+        pairs: &Pairs<'_, L>,
+        columns: &mut impl Columns<Hold>,
+        gap: L,
+    ) -> Resist<L> {
+        self.shelf.resist(columns, gap).unwrap_or_else(|| {
+            let gaps = gap.unpack();
+            let one = |k| self.shelf.resist_one(columns.column(k), gaps[k]);
+            Resist::pack(pairs.permit, &L::each(one))
+        })
     }
 
     fn charge(&self, column: &Hold, gap: f64) -> [f64; 2] {
         let far = self.shelf.held(column);
-        far.map_or([0.0; 2], |far| [far.curves.1.impulse(gap), far.curves.1.coefficient(gap)])
+        far.map_or([0.0; 2], |far| far.curves.1.charge(gap))
     }
 
     fn load_on_limit(&self, pair: &Pair, column: &Hold) -> StabilityLoad {
@@ -214,7 +219,7 @@ where
             pulls[k] = pull.unwrap_or_default();
         }
         let pulls = Pulls::<L>::side_by_side(pairs.permit, &pulls);
-        Loads { attention, ..pulls.act(&pairs.geometry, self.drags) }
+        Loads { attention, ..pulls.act(pairs.geometry, self.drags) }
     }
 
     /// What acts in a pair without bridge or beyond its static rupture distance; `None` if a bridge
