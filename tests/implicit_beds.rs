@@ -158,11 +158,11 @@ fn threads_and_skins_do_not_change_a_bit_of_implicit_drags() {
 #[test]
 fn a_snapshot_holds_the_impulses() {
     let h = bed_step();
-    let (particles, walls, terms) = bed(4, 20.0, 0.07, 1.245e-3);
+    let (particles, walls, terms) = bed(9, 20.0, 0.07, 1.245e-3);
     let mut simulation = implicit(particles, walls, terms, Settings::new(h));
-    simulation.advance(500).unwrap();
+    simulation.advance(200).unwrap();
     let (state, snapshot) = (simulation.term().inner().1.state(), simulation.snapshot());
-    let (particles, walls, (contact, mut wet)) = bed(4, 20.0, 0.07, 1.245e-3);
+    let (particles, walls, (contact, mut wet)) = bed(9, 20.0, 0.07, 1.245e-3);
     wet.resume(state).unwrap();
     let hold = |hold: pendular::Hold| wet.column(hold.bridge()).unwrap();
     let snapshot = snapshot.map(|((spring, bridge), impulse)| ((spring, hold(bridge)), impulse));
@@ -170,7 +170,7 @@ fn a_snapshot_holds_the_impulses() {
     let walls = MeshWalls(walls);
     let mut again =
         Simulation::restore(particles, terms, walls, Settings::new(h), snapshot).unwrap();
-    simulation.advance(500).unwrap();
-    again.advance(500).unwrap();
+    simulation.advance(200).unwrap();
+    again.advance(200).unwrap();
     assert!(rig::bits(&simulation) == rig::bits(&again));
 }

@@ -285,6 +285,28 @@ fn a_sheared_pair_goes_where_a_thousand_times_finer_explicit_steps_take_it() {
     }
 }
 
+/// Rolling friction ends with the contact, though the bridge lives on.
+#[test]
+fn a_wet_sphere_that_lifts_off_keeps_its_spin() {
+    let class = sphere();
+    let mut particles = Particles::new(vec![class]).unwrap();
+    particles.push(0, (R - 1e-6) * DVec3::Z, DVec3::ZERO, 20.0 * DVec3::X).unwrap();
+    let wet = film(&particles, &floor(), 1e-3, vec![1e-9]);
+    let rub = PairContact { rolling_friction: 1e-5, ..spring(class.mass(), 0.8) };
+    let contact = Contact::new(&[class], 1, move |_, _| rub, move |_, _| rub);
+    let mut simulation = implicit(particles, floor(), (contact, wet), rig::weightless(step()));
+    let mut spins = Vec::new();
+    for _ in 0..400 {
+        simulation.advance(1).unwrap();
+        let now = rig::at(&simulation, 0);
+        if now.position.z - R > 1e-7 {
+            spins.push(now.spin.x);
+        }
+    }
+    assert!(simulation.term().inner().1.alive() == 1 && spins.len() > 100, "{}", spins.len());
+    assert!(spins[0] < 20.0 && spins.iter().all(|spin| *spin == spins[0]), "{spins:?}");
+}
+
 /// A POM sphere rolls to rest in the time that its rolling friction says, and stays there.
 #[test]
 fn a_rolling_sphere_comes_to_rest_in_time_and_without_creep() {

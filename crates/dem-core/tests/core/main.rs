@@ -7,6 +7,7 @@ mod crevice;
 mod determinism;
 mod errors;
 mod impact;
+mod implicit;
 mod lists;
 mod rolling;
 mod survey;

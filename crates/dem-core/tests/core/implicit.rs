@@ -1,0 +1,136 @@
+//! What is solved for at the end of the step: across the borders of chunks, and until nothing is
+//! left to change.
+
+use pendular_contact::Linear;
+use pendular_dem_core::{
+    Class, Contact, DVec3, Encounter, Implicit, Load, NoWalls, Pair, PairContact, PairTerm,
+    Particle, Particles, Resist, Settings, Simulation, StabilityLoad, TermError, Visit,
+};
+
+const R: f64 = 1e-3;
+
+/// A drag in every gap up to a reach, which may want attention for nothing.
+struct Drag {
+    coefficient: f64,
+    reach: f64,
+    asks: bool,
+}
+
+impl PairTerm for Drag {
+    type Column = ();
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn idle(&self, encounter: &Encounter, (): &mut ()) -> bool {
+        encounter.gap > self.reach
+    }
+
+    fn load(&self, _: &Pair, (): &mut ()) -> Load {
+        Load { attention: self.asks, ..Load::default() }
+    }
+
+    fn live(&self, (): &()) -> bool {
+        false
+    }
+
+    fn settle(&mut self, _: &mut [Visit<()>]) -> Result<(), TermError> {
+        Ok(())
+    }
+
+    fn resist(&self, _: &Pair, (): &(), _: f64) -> Resist {
+        Resist { drag: self.coefficient, clearance: f64::INFINITY, ..Resist::default() }
+    }
+
+    fn charge(&self, (): &(), gap: f64) -> [f64; 2] {
+        [self.coefficient * gap, self.coefficient]
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+        vec![StabilityLoad::default(); classes.len()]
+    }
+}
+
+type Scene = Simulation<Implicit<(Contact<Linear>, Drag)>, NoWalls>;
+
+fn scene(particles: Particles, drag: Drag, rolling_friction: f64) -> Scene {
+    let normal = Linear::from_restitution(1e3, 0.5, 1e-5).unwrap();
+    let rub = PairContact { normal, friction: 0.0, rolling_friction, tangential_damping: 0.0 };
+    let contact = Contact::new(particles.classes(), 0, move |_, _| rub, move |_, _| rub);
+    let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(1e-6) };
+    // Small skins: what the copies of pairs remember is of the last time that lists were built.
+    let (skin, inner_skin) = (Some(3e-6), Some(1e-6));
+    let settings = Settings { start_overlap: 0.5, skin, inner_skin, ..settings };
+    Simulation::new(particles, Implicit::new((contact, drag)), NoWalls, settings).unwrap()
+}
+
+/// A pair across a border stands in the lists of two chunks, of which one keeps its impulse. Where
+/// attention changes nothing, it does so there too.
+#[test]
+fn attention_costs_no_pair_its_impulse() {
+    let run = |asks: bool| {
+        let mut particles = Particles::new(vec![Class::new(R, 2500.0, 0).unwrap()]).unwrap();
+        // The later the number the earlier the place: the copy that counts is in the later chunk.
+        for k in (0..1331_u32).rev() {
+            let at = DVec3::new(f64::from(k % 11), f64::from(k / 11 % 11), f64::from(k / 121));
+            let swirl = DVec3::new(-at.y, at.x, 0.3 * at.x - 0.2 * at.z);
+            let x = (2.0 * R + 2e-5) * at;
+            particles.push(0, x, 0.01 * swirl, 3.0 * swirl).unwrap();
+        }
+        let drag = Drag { coefficient: 0.3, reach: 1e-4, asks: false };
+        let mut scene = scene(particles, drag, 0.0);
+        for step in 0..60 {
+            scene.term_mut().inner_mut().1.asks = asks && step % 10 == 9;
+            scene.advance(1).unwrap();
+        }
+        let mut all: Vec<_> = scene.particles().iter().collect();
+        all.sort_by_key(|p| p.id);
+        all
+    };
+    let (quiet, asking) = (run(false), run(true));
+    let fastest = quiet.iter().fold(0.0_f64, |most, p| most.max(p.velocity.length()));
+    // Those that ask are solved for in another order, so not to the bit.
+    let apart = |(a, b): (&Particle, &Particle)| (a.velocity - b.velocity).length();
+    let most = quiet.iter().zip(&asking).map(apart).fold(0.0, f64::max);
+    assert!(most < 1e-9 * fastest, "{most:e} of {fastest}");
+}
+
+/// A sphere at the end of a row spins, and nothing bounds the torques of rolling friction: after one
+/// step all spin alike, which takes as many rounds as it takes.
+#[test]
+fn rounds_go_on_until_rolling_is_settled_too() {
+    let mut particles = Particles::new(vec![Class::new(R, 2500.0, 0).unwrap()]).unwrap();
+    for k in 0..10_u32 {
+        let spin = if k == 0 { 100.0 * DVec3::Z } else { DVec3::ZERO };
+        let x = f64::from(k) * (2.0 * R - 1e-6) * DVec3::X;
+        particles.push(0, x, DVec3::ZERO, spin).unwrap();
+    }
+    let drag = Drag { coefficient: 0.0, reach: 0.0, asks: false };
+    let mut scene = scene(particles, drag, 1e6);
+    scene.advance(1).unwrap();
+    for p in scene.particles().iter() {
+        assert!((p.spin.z - 10.0).abs() < 2.0, "{p:?}");
+    }
+    assert!(scene.passes().passes > 10, "{:?}", scene.passes());
+}
+
+#[test]
+fn an_optional_implicit_term_is_implicit() {
+    let mut particles = Particles::new(vec![Class::new(R, 2500.0, 0).unwrap()]).unwrap();
+    for side in [-1.0, 1.0] {
+        let (x, v) = (side * (R + 2e-5) * DVec3::X, -side * 0.01 * DVec3::X);
+        particles.push(0, x, v, DVec3::ZERO).unwrap();
+    }
+    let drag = || Drag { coefficient: 0.3, reach: 1e-4, asks: false };
+    let settings = || Settings { gravity: DVec3::ZERO, ..Settings::new(1e-6) };
+    let mut plain =
+        Simulation::new(particles.clone(), Implicit::new(drag()), NoWalls, settings()).unwrap();
+    let mut optional =
+        Simulation::new(particles, Some(Implicit::new(drag())), NoWalls, settings()).unwrap();
+    plain.advance(50).unwrap();
+    optional.advance(50).unwrap();
+    let speed = |p: &Particles| p.iter().next().unwrap().velocity.x;
+    assert!(speed(plain.particles()) < 0.9e-2, "{}", speed(plain.particles()));
+    assert_eq!(speed(plain.particles()), speed(optional.particles()));
+}
