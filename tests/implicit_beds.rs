@@ -80,7 +80,8 @@ fn a_shaken_viscous_bed_goes_where_fine_explicit_steps_take_it() {
     };
     let fine = run(h / f64::from(finer), steps * u64::from(finer)).unwrap();
     let (off, moved) = (rms(&places(&coarse), &fine), rms(&before, &fine));
-    assert!(off < 1e-2 * moved, "{off:e} of {moved:e}");
+    println!("shaken bed: {:.1e} of the way", off / moved);
+    assert!(off < 5e-5 * moved, "{off:e} of {moved:e}");
     let passes = coarse.passes();
     assert_eq!((passes.steps, passes.at_most), (steps, 0), "{passes:?}");
     let blown = run(h, steps);

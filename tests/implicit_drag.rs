@@ -136,18 +136,22 @@ fn drained(count: usize, viscosity: f64, steps: u64) -> Vec<f64> {
 
 #[test]
 fn a_sphere_settles_on_a_plane_at_the_rate_of_lubrication() {
-    for (viscosity, steps) in [(1.0, 4_000), (10.0, 20_000), (100.0, 40_000)] {
-        let rate = drained(1, viscosity, steps)[0];
-        assert!((rate - 1.0).abs() < 1e-3, "η = {viscosity}: {rate}");
+    let cases = [(1.0, 4_000, 2e-4), (10.0, 20_000, 3e-6), (100.0, 40_000, 3e-8)];
+    for (viscosity, steps, allowed) in cases {
+        let off = (drained(1, viscosity, steps)[0] - 1.0).abs();
+        println!("settling, η = {viscosity} Pa s: {off:.1e}");
+        assert!(off < allowed, "η = {viscosity}: {off}");
     }
 }
 
 #[test]
 fn stacks_drain_as_their_weight_says() {
-    for (count, viscosity) in [(3, 10.0), (3, 100.0), (10, 10.0), (10, 100.0)] {
-        for (k, rate) in drained(count, viscosity, 2_000).into_iter().enumerate() {
-            assert!((rate - 1.0).abs() < 1e-2, "{count} at η = {viscosity}, gap {k}: {rate}");
-        }
+    let cases = [(3, 10.0, 2e-4), (3, 100.0, 3e-6), (10, 10.0, 1e-2), (10, 100.0, 2e-4)];
+    for (count, viscosity, allowed) in cases {
+        let rates = drained(count, viscosity, 2_000);
+        let off = rates.iter().fold(0.0_f64, |most, rate| most.max((rate - 1.0).abs()));
+        println!("stack of {count}, η = {viscosity} Pa s: {off:.1e}");
+        assert!(off < allowed, "{count} at η = {viscosity}: {rates:?}");
     }
 }
 
@@ -205,7 +209,9 @@ fn the_mean_rebound_is_daviss_at_the_contacts_step() {
         }
         let log = |gap: f64| (1.0 + gap / ROUGHNESS).ln() + 1.0;
         let expected = e_dry - (e_dry * log(film_gap) + log(volume.cbrt())) / stokes;
-        assert!((mean - expected.max(0.0)).abs() < 3e-3, "St {stokes}: {mean} for {expected}");
+        let off = (mean - expected.max(0.0)).abs();
+        println!("mean rebound, St = {stokes}: {off:.1e}");
+        assert!(off < 2e-3, "St {stokes}: {mean} for {expected}");
     }
 }
 
@@ -275,7 +281,8 @@ fn a_sheared_pair_goes_where_a_thousand_times_finer_explicit_steps_take_it() {
             let at = |p: &Particles| p.get(id).unwrap().position;
             let moved = (at(&fine) - at(&start)).length();
             let off = (at(&coarse) - at(&fine)).length();
-            assert!(off < 1e-3 * moved.max(1e-5), "η = {viscosity}: {off:e} of {moved:e}");
+            println!("sheared, η = {viscosity} Pa s, sphere {id}: {:.1e} of the way", off / moved);
+            assert!(off < 5e-5 * moved, "η = {viscosity}: {off:e} of {moved:e}");
         }
         let (_, explicit) = sheared(viscosity, model, h, 2e-3, false);
         let off = explicit.get(0).unwrap().position - fine.get(0).unwrap().position;

@@ -31,10 +31,16 @@ pub struct Load {
 
 impl Load {
     /// What is left of it where dashpots and drags are solved for at the end of the step
-    /// ([`crate::Implicit`]): they limit nothing then.
+    /// ([`crate::Implicit`]): they limit nothing then. A drag without a value still allows no step.
     #[must_use]
     pub fn resisted_implicitly(self) -> Self {
-        Self { normal_damping: 0.0, normal_drag: 0.0, tangential_drag: 0.0, ..self }
+        let left = |drag: f64| if drag.is_finite() { 0.0 } else { drag };
+        Self {
+            normal_damping: left(self.normal_damping),
+            normal_drag: left(self.normal_drag),
+            tangential_drag: left(self.tangential_drag),
+            ..self
+        }
     }
 }
 

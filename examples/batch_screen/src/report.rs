@@ -76,9 +76,9 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
 fn drag(asked: Drag, implicit: bool) -> &'static str {
     match (asked, implicit) {
         (Drag::Auto, true) => {
-            "implicit: taken from the start of the step it would limit it more than the contacts do"
+            "implicit: taken from the start of the step its own limit would be below the contacts'"
         }
-        (Drag::Auto, false) => "explicit: it limits the step less than the contacts do",
+        (Drag::Auto, false) => "explicit: its own limit is above the contacts'",
         (_, true) => "implicit, as asked for",
         (_, false) => "explicit, as asked for",
     }
@@ -188,6 +188,11 @@ pub(crate) fn summary(
         },
         "time_s": tally.time,
         "drag": scene.liquid.as_ref().map(|_| if derived.implicit { "implicit" } else { "explicit" }),
+        "drag_passes": derived.implicit.then(|| json!({
+            "steps": outcome.passes.steps,
+            "passes": outcome.passes.passes,
+            "steps_at_most_passes": outcome.passes.at_most,
+        })),
         "steps": outcome.steps,
         "threads": settings.threads,
         "fraction_retained": {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use pendular::dem::{Departure, Implicit, Particle, Simulation};
+use pendular::dem::{Departure, Implicit, Particle, Passes, Simulation};
 use pendular::{Account, Budget, MeshWalls};
 
 use self::start::begin;
@@ -48,6 +48,8 @@ pub(crate) struct Outcome {
     /// The least stability limit of the packing at any row, s.
     pub(crate) limit: f64,
     pub(crate) spent: Spent,
+    /// How hard implicit drags were to find since the run was started or taken up again.
+    pub(crate) passes: Passes,
     /// Why the run stopped before its end, if it did.
     pub(crate) fault: Option<String>,
 }
@@ -229,6 +231,7 @@ impl<T: Makeup> Run<'_, T> {
             budget: self.budget,
             limit: self.limit,
             spent: self.spent.with(&self.simulation.profile()),
+            passes: self.simulation.passes(),
             fault: self.fault.clone(),
         }
     }
