@@ -2,7 +2,7 @@
 
 use pendular_dem_core::{
     Class, Columns, EachColumn, Encounter, Lane, Load, Loads, Pair, PairTerm, Pairs, StabilityLoad,
-    TermError, Visit,
+    TermError, Visits,
 };
 
 /// Does what its term does, by [`PairTerm::load`] alone.
@@ -38,7 +38,7 @@ impl<T: PairTerm> PairTerm for LonePairs<T> {
         self.0.live(column)
     }
 
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         self.0.settle(visits)
     }
 

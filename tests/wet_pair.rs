@@ -7,7 +7,7 @@ use pendular_capillary::AnyCapillary;
 use pendular_contact::{Dashpot, Linear};
 use pendular_dem_core::{
     Class, Contact, DVec3, Encounter, Load, NoWalls, Pair, PairContact, PairTerm, Particle,
-    Particles, Simulation, StabilityLoad, TermError, Visit,
+    Particles, Simulation, StabilityLoad, TermError, Visits,
 };
 use pendular_lubrication::{
     AdamsPerchard1985, Gap, NormalCurve, NormalDrag, NormalModel, Overlap, Regularisation,
@@ -66,7 +66,7 @@ impl<T: PairTerm> PairTerm for FormsOnTouch<T> {
         self.0.live(column)
     }
 
-    fn settle(&mut self, visits: &mut [Visit<T::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<T::Column>) -> Result<(), TermError> {
         self.0.settle(visits)
     }
 

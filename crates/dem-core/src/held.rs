@@ -33,6 +33,15 @@ impl Held {
         }
     }
 
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self(self.0.map(|row| row.map(|entry| factor * entry)))
+    }
+
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        let row = |i: usize| std::array::from_fn(|j| self.0[i][j] + other.0[i][j]);
+        Self(std::array::from_fn(row))
+    }
+
     /// The largest eigenvalue, by Jacobi's rotations.
     pub(crate) fn largest(mut self) -> f64 {
         for _ in 0..SWEEPS {

@@ -64,7 +64,7 @@ pub use pairs::{Columns, Geometry, Loads, Pairs};
 pub use particles::{Class, Particle, Particles};
 pub use profile::Profile;
 pub use simulation::{Departure, RollState, Settings, Simulation, Snapshot, WallMemory};
-pub use term::{EachColumn, PairTerm, TermError, Visit};
+pub use term::{EachColumn, PairTerm, TermError, Visit, Visits};
 
 /// The README's program runs as a test.
 #[cfg(doctest)]

@@ -12,6 +12,9 @@ const SAFETY: f64 = 0.9;
 /// The same where explicit viscous drag prevails.
 const SAFETY_VISCOUS: f64 = 0.7;
 
+/// Steps towards the limit of springs and damping together.
+const CLOSER: u32 = 4;
+
 /// The strongest pair that a class can be part of.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Load {
@@ -173,12 +176,17 @@ impl Sums {
 
 /// Limit from the fastest spring, the strongest damping and the strongest drag among it.
 fn limit(stiff: f64, damp: f64, drag: f64, class: usize) -> Limit {
-    let (safety, term) = if drag * drag > 4.0 * stiff {
+    let (safety, term) = safety(stiff, drag);
+    Limit { time_step: safety * longest(stiff, damp), class, term }
+}
+
+/// Share of the limit that holds, and what it is called.
+fn safety(stiff: f64, drag: f64) -> (f64, &'static str) {
+    if drag * drag > 4.0 * stiff {
         (SAFETY_VISCOUS, "viscous drag")
     } else {
         (SAFETY, "contact springs and dashpots")
-    };
-    Limit { time_step: safety * longest(stiff, damp), class, term }
+    }
 }
 
 /// What holds one sphere in a packing as it is.
@@ -191,13 +199,14 @@ pub(crate) struct Hold {
 
 impl Hold {
     /// Adds a pair: its `normal` from this sphere outwards, this sphere's mass and the other's
-    /// (infinite for a wall), kg.
+    /// (infinite for a wall), kg, and how fast the `other` is, over how fast this one is.
     ///
     /// Springs between two bodies obey `(a − b)² ≤ (1 + t) a² + (1 + 1/t) b²`, so blocks weighted in
     /// that way bound the whole packing, whatever t. With t = √(m_i/m_j) one pair of equal spheres
-    /// and a sphere at a wall are exact, and a large sphere does not pay for the small ones around it.
-    pub(crate) fn add(&mut self, load: &Load, normal: DVec3, masses: [f64; 2]) {
-        let weight = (1.0 + (masses[0] / masses[1]).sqrt()) / masses[0];
+    /// and a sphere at a wall are exact, and a large sphere does not pay for the small ones around
+    /// it; times how fast they are, a sphere that is held by many does not count twice.
+    pub(crate) fn add(&mut self, load: &Load, normal: DVec3, masses: [f64; 2], other: f64) {
+        let weight = (1.0 + (masses[0] / masses[1]).sqrt() * other) / masses[0];
         self.stiffness.add(
             normal,
             weight * load.normal_stiffness,
@@ -214,9 +223,25 @@ impl Hold {
         let [stiff, damp, drag] = [self.stiffness, self.damping, self.drag].map(Held::largest);
         limit(stiff, damp, drag, class)
     }
+
+    /// The same with springs and damping in the directions in which they are strong together, which
+    /// is never less: what comes nearer to the limit from below.
+    pub(crate) fn finer(&self, coarse: Limit) -> Limit {
+        let [stiff, drag] = [self.stiffness, self.drag].map(Held::largest);
+        let safety = safety(stiff, drag).0;
+        let mut h = coarse.time_step / safety;
+        for _ in 0..CLOSER {
+            // Twice the step is at most four times the matrix.
+            let fastest = self.stiffness.times(h * h).plus(&self.damping.times(2.0 * h)).largest();
+            if fastest > 0.0 {
+                h *= (4.0 / fastest).sqrt().max(1.0);
+            }
+        }
+        Limit { time_step: safety * h, ..coarse }
+    }
 }
 
-/// h with h² Λ_K + h Λ_C = 4 … written without cancellation where damping prevails.
+/// h with h² Λ_K + 2 h Λ_C = 4, written without cancellation where damping prevails.
 fn longest(stiff: f64, damp: f64) -> f64 {
     if stiff == 0.0 && damp == 0.0 {
         return f64::INFINITY;

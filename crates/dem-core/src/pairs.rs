@@ -249,7 +249,7 @@ impl<C> Columns<C> for Picked<'_, C> {
 
 /// The first or second part of columns that are tuples.
 pub(crate) struct Part<'a, P, O> {
-    whole: &'a mut P,
+    pub(crate) whole: &'a mut P,
     other: std::marker::PhantomData<O>,
 }
 

@@ -9,6 +9,77 @@ pub type TermError = Box<dyn std::error::Error + Send + Sync>;
 /// Calls what it is given with every column of a term.
 pub type EachColumn<'a, C> = dyn FnMut(&mut dyn FnMut(&mut C)) + 'a;
 
+/// The pairs that a term is to settle.
+pub trait Visits<C> {
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// Pair `k` as it was read.
+    fn encounter(&self, k: usize) -> Encounter;
+
+    /// Whether pair `k` ends after this visit: a body leaves the scene, or a wall part is taken away.
+    fn ends(&self, k: usize) -> bool;
+
+    /// The term's column of pair `k`; what is left here is written back.
+    fn column(&mut self, k: usize) -> &mut C;
+}
+
+impl<C> Visits<C> for Vec<Visit<C>> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn encounter(&self, k: usize) -> Encounter {
+        self[k].encounter
+    }
+
+    fn ends(&self, k: usize) -> bool {
+        self[k].ending
+    }
+
+    fn column(&mut self, k: usize) -> &mut C {
+        &mut self[k].column
+    }
+}
+
+/// The columns of one of two terms.
+impl<A, B, V: Visits<(A, B)>> Visits<A> for Part<'_, V, First<B>> {
+    fn count(&self) -> usize {
+        self.whole.count()
+    }
+
+    fn encounter(&self, k: usize) -> Encounter {
+        self.whole.encounter(k)
+    }
+
+    fn ends(&self, k: usize) -> bool {
+        self.whole.ends(k)
+    }
+
+    fn column(&mut self, k: usize) -> &mut A {
+        &mut self.whole.column(k).0
+    }
+}
+
+/// The columns of the other of two terms.
+impl<A, B, V: Visits<(A, B)>> Visits<B> for Part<'_, V, Second<A>> {
+    fn count(&self) -> usize {
+        self.whole.count()
+    }
+
+    fn encounter(&self, k: usize) -> Encounter {
+        self.whole.encounter(k)
+    }
+
+    fn ends(&self, k: usize) -> bool {
+        self.whole.ends(k)
+    }
+
+    fn column(&mut self, k: usize) -> &mut B {
+        &mut self.whole.column(k).1
+    }
+}
+
 /// A pair that asked for attention, or is about to end.
 #[derive(Debug, Clone, Copy)]
 pub struct Visit<C> {
@@ -74,7 +145,7 @@ pub trait PairTerm: Send + Sync {
     ///
     /// # Errors
     /// Whatever the term cannot do; the simulation stops with it.
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         let _ = visits;
         Ok(())
     }
@@ -239,16 +310,12 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         self.0.live(&column.0) || self.1.live(&column.1)
     }
 
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         if A::SETTLES {
-            let mut first: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
-            self.0.settle(&mut first)?;
-            visits.iter_mut().zip(first).for_each(|(visit, own)| visit.column.0 = own.column);
+            self.0.settle(&mut Part::<_, First<B::Column>>::of(visits))?;
         }
         if B::SETTLES {
-            let mut second: Vec<_> = visits.iter().map(|v| v.part(v.column.1)).collect();
-            self.1.settle(&mut second)?;
-            visits.iter_mut().zip(second).for_each(|(visit, own)| visit.column.1 = own.column);
+            self.1.settle(&mut Part::<_, Second<A::Column>>::of(visits))?;
         }
         Ok(())
     }
@@ -358,7 +425,7 @@ impl<T: PairTerm> PairTerm for Option<T> {
         self.as_ref().is_some_and(|term| term.live(column))
     }
 
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         self.as_mut().map_or(Ok(()), |term| term.settle(visits))
     }
 
@@ -427,11 +494,5 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
     fn impulse<'a>(&self, column: &'a mut Self::Column) -> Option<&'a mut Impulse> {
         self.as_ref().and_then(|term| term.impulse(column))
-    }
-}
-
-impl<C> Visit<C> {
-    pub(crate) fn part<D>(&self, column: D) -> Visit<D> {
-        Visit { encounter: self.encounter, column, ending: self.ending }
     }
 }

@@ -2,7 +2,7 @@ use super::{Impulse, Resist};
 use crate::lane::Lane;
 use crate::limit;
 use crate::pairs::{Columns, First, Loads, Pairs, Part};
-use crate::{Class, EachColumn, Encounter, Load, Pair, PairTerm, TermError, Visit};
+use crate::{Class, EachColumn, Encounter, Load, Pair, PairTerm, TermError, Visits};
 
 /// A term whose dashpots, drags and rolling friction are solved for at the end of the step.
 ///
@@ -81,11 +81,8 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
         self.0.live(&column.0) || column.1.charged.is_finite()
     }
 
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
-        let mut own: Vec<_> = visits.iter().map(|v| v.part(v.column.0)).collect();
-        self.0.settle(&mut own)?;
-        visits.iter_mut().zip(own).for_each(|(visit, own)| visit.column.0 = own.column);
-        Ok(())
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
+        self.0.settle(&mut Part::<_, First<Impulse>>::of(visits))
     }
 
     fn finish(&mut self) -> Result<(), TermError> {

@@ -4,7 +4,7 @@
 use pendular_contact::Linear;
 use pendular_dem_core::{
     Class, Contact, DVec3, Encounter, Implicit, Load, NoWalls, Pair, PairContact, PairTerm,
-    Particle, Particles, Resist, Settings, Simulation, StabilityLoad, TermError, Visit,
+    Particle, Particles, Resist, Settings, Simulation, StabilityLoad, TermError, Visits,
 };
 
 const R: f64 = 1e-3;
@@ -35,7 +35,7 @@ impl PairTerm for Drag {
         false
     }
 
-    fn settle(&mut self, _: &mut [Visit<()>]) -> Result<(), TermError> {
+    fn settle(&mut self, _: &mut impl Visits<()>) -> Result<(), TermError> {
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use pendular_capillary::CapillaryLaw;
 use pendular_dem_core::{
     Class, Columns, EachColumn, Encounter, Geometry, Lane, Load, Loads, Pair, PairTerm, Pairs,
-    Resist, StabilityLoad, TermError, Visit,
+    Resist, StabilityLoad, TermError, Visits,
 };
 use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialDrag};
 use pendular_pair::{Bridge, Mate, OutOfRange};
@@ -74,25 +74,25 @@ where
         column.bridge().is_some()
     }
 
-    fn settle(&mut self, visits: &mut [Visit<Self::Column>]) -> Result<(), TermError> {
+    fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         // Nothing is left of the last time if the caller keeps to the order of calls.
         self.finish()?;
-        let mut moves = Vec::with_capacity(2 * visits.len());
-        let mut forming: Vec<[u32; 3]> = Vec::with_capacity(visits.len());
-        for (k, visit) in visits.iter_mut().enumerate() {
-            let encounter = visit.encounter;
-            if let Some(bridge) = visit.column.bridge() {
+        let mut moves = Vec::with_capacity(2 * visits.count());
+        let mut forming: Vec<[u32; 3]> = Vec::with_capacity(visits.count());
+        for k in 0..visits.count() {
+            let encounter = visits.encounter(k);
+            if let Some(bridge) = visits.column(k).bridge() {
                 moves.extend(self.rupture(&encounter, bridge));
-            } else if !visit.ending {
+            } else if !visits.ends(k) {
                 let bridge = self.ledger.open_bridge();
                 forming.push([k as u32, bridge, moves.len() as u32]);
                 moves.extend(self.claims(&encounter, bridge)?);
             }
         }
         self.ledger.book(&mut moves)?;
-        for visit in visits.iter_mut() {
-            let Some(bridge) = std::mem::take(&mut visit.column).bridge() else { continue };
-            self.lose(bridge, visit.encounter.gap, 1.0);
+        for k in 0..visits.count() {
+            let Some(bridge) = std::mem::take(visits.column(k)).bridge() else { continue };
+            self.lose(bridge, visits.encounter(k).gap, 1.0);
             if let Some(seated) = self.live[bridge as usize].take() {
                 self.shelf.leave(seated.seat);
             }
@@ -100,7 +100,7 @@ where
             self.counts.ruptured += 1;
         }
         for &[k, bridge, given] in &forming {
-            if !self.forms(bridge, &visits[k as usize].encounter) {
+            if !self.forms(bridge, &visits.encounter(k as usize)) {
                 let given = &moves[given as usize..][..2];
                 let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
                 self.ledger.book(&mut [back(&given[0]), back(&given[1])])?;
@@ -115,10 +115,10 @@ where
         drop(moves);
         self.forming.reserve_exact(forming.len());
         for [k, bridge, _] in forming {
-            let Encounter { first, second, gap, .. } = visits[k as usize].encounter;
-            if self.forms(bridge, &visits[k as usize].encounter) {
+            let Encounter { first, second, gap, .. } = visits.encounter(k as usize);
+            if self.forms(bridge, &visits.encounter(k as usize)) {
                 let seat = self.shelf.seat();
-                visits[k as usize].column = Hold::new(bridge, seat);
+                *visits.column(k as usize) = Hold::new(bridge, seat);
                 self.forming.push(Forming { account: bridge, seat, first, second, gap });
                 self.counts.formed += 1;
             }
