@@ -173,7 +173,15 @@ fn meet<T: PairTerm, L: Lane>(
     let middle = charged + L::splat(permit, 0.5 * view.kick()) * geometry.separation_speed;
     let resist = pass.term.resist_lanes(pairs, &mut columns, middle);
     let (slots, index) = (L::each(|k| pairs.entries[k]), L::each(|k| at[k]));
-    let which = which & resist.any();
+    let any = resist.any();
+    // Where nothing resists any more nothing is remembered either.
+    let free = which & !any;
+    for k in (0..L::WIDTH).filter(|k| free >> k & 1 == 1) {
+        if let Some(impulse) = pass.term.impulse(columns.column(k)) {
+            *impulse = Impulse::NONE;
+        }
+    }
+    let which = which & any;
     let met = Met { which, slots, list: list.which, index, geometry, resist, impulses };
     let inverse = Inverse { classes: view.inverse, class: view.class };
     if inside && L::WIDTH > 1 {

@@ -53,7 +53,9 @@ impl Held {
             }
             upper.for_each(|(i, j)| self.rotate(i, j));
         }
-        (0..N).fold(0.0, |most, i| most.max(self.0[i][i]))
+        // What is no number holds without a limit.
+        let diagonal = (0..N).map(|i| self.0[i][i]);
+        diagonal.fold(0.0, |most, one| if one.is_nan() { f64::INFINITY } else { one.max(most) })
     }
 
     /// Turns rows and columns p and q so that their common entry vanishes.

@@ -31,6 +31,7 @@
 mod block;
 mod boundary;
 mod chunk;
+mod compose;
 mod contact;
 mod error;
 mod grid;
@@ -49,6 +50,7 @@ mod profile;
 mod simulation;
 mod term;
 mod view;
+mod visits;
 mod wall_pass;
 
 pub use boundary::{Boundary, NoWalls, Touch};
@@ -64,7 +66,8 @@ pub use pairs::{Columns, Geometry, Loads, Pairs};
 pub use particles::{Class, Particle, Particles};
 pub use profile::Profile;
 pub use simulation::{Departure, RollState, Settings, Simulation, Snapshot, WallMemory};
-pub use term::{EachColumn, PairTerm, TermError, Visit, Visits};
+pub use term::{EachColumn, PairTerm, TermError};
+pub use visits::{Visit, Visits};
 
 /// The README's program runs as a test.
 #[cfg(doctest)]

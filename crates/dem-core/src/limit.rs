@@ -37,7 +37,7 @@ impl Load {
     /// ([`crate::Implicit`]): they limit nothing then. A drag without a value still allows no step.
     #[must_use]
     pub fn resisted_implicitly(self) -> Self {
-        let left = |drag: f64| if drag.is_finite() { 0.0 } else { drag };
+        let left = |drag: f64| if drag.is_finite() { 0.0 } else { f64::INFINITY };
         Self {
             normal_damping: left(self.normal_damping),
             normal_drag: left(self.normal_drag),
@@ -170,6 +170,8 @@ impl Sums {
 
     fn lambdas(&self, mass: f64) -> [f64; 3] {
         [self.stiffness, self.dashpot, self.drag]
+            // What is no number holds without a limit.
+            .map(|[n, t]| [n, t].map(|c| if c.is_nan() { f64::INFINITY } else { c }))
             .map(|[n, t]| 2.0 / mass * ((n + 2.0 * t) / 3.0).max(5.0 * t / 3.0))
     }
 }

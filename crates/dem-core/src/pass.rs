@@ -75,19 +75,20 @@ fn list<T: PairTerm, L: Lane>(
     let mut apart = std::mem::take(out.apart);
     apart.clear();
     // An implicit term sorts them first, for which there have to be some.
-    let least = if T::IMPLICIT && which == List::Inside { Colours::WINDOW } else { 1 };
+    // So many at a time, whatever the tiles: their order must not hang on what else is listed.
+    let sorts = T::IMPLICIT && which == List::Inside;
     for start in (0..list.active.len()).step_by(TILE) {
         waiting = pick::<T, L>(pass, list, start, &mut touching, waiting, &mut apart);
-        if waiting >= least {
-            let acting = &mut touching[..waiting];
-            let left = several::<T, L, false>(pass, list, acting, stage, out);
+        let count = if sorts { Colours::WINDOW } else { waiting };
+        if waiting > 0 && waiting >= count {
+            let mut left = several::<T, L, false>(pass, list, &mut touching[..count], stage, out);
+            if sorts && left == count {
+                singly::<T, false>(pass.view, pass.term, list, &touching[..count], out);
+                left = 0;
+            }
             // What does not fill the lanes waits for the next tile.
-            touching.copy_within(waiting - left..waiting, 0);
-            waiting = left;
-        }
-        if waiting >= Colours::WINDOW {
-            singly::<T, false>(pass.view, pass.term, list, &touching[..waiting], out);
-            waiting = 0;
+            touching.copy_within(count - left..waiting, 0);
+            waiting -= count - left;
         }
     }
     let left = several::<T, L, false>(pass, list, &mut touching[..waiting], stage, out);

@@ -53,11 +53,11 @@ pub struct Simulation<T: PairTerm, B> {
     departures: Vec<Departure>,
     profile: Profile,
     limit: Limit,
-    /// Scratch: what remembered impulses do to the velocities, for an implicit term.
-    /// How many rounds the last step took.
+    /// How many rounds the last step of an implicit term took.
     rounds: u32,
+    /// Scratch: what remembered impulses do to the velocities.
     pushed: Vec<crate::particles::Velocity>,
-    /// 1/m and 1/I of the classes, for the same.
+    /// 1/m and 1/I of the classes, for an implicit term.
     inverse: Vec<[f64; 2]>,
     passes: crate::Passes,
 }

@@ -188,7 +188,7 @@ pub(crate) fn summary(
         },
         "time_s": tally.time,
         "drag": scene.liquid.as_ref().map(|_| if derived.implicit { "implicit" } else { "explicit" }),
-        "drag_passes": derived.implicit.then(|| json!({
+        "drag_passes_since_resume": derived.implicit.then(|| json!({
             "steps": outcome.passes.steps,
             "passes": outcome.passes.passes,
             "steps_at_most_passes": outcome.passes.at_most,

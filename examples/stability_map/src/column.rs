@@ -159,13 +159,9 @@ mod tests {
         let mut wrong = String::new();
         for radii in [[1e-3, 1.05e-3], [1.6e-3, 0.4e-3]] {
             let column = Column::settled(4, 4, radii).unwrap();
-            for (restitution, viscosity) in [
-                (0.9, None),
-                (0.3, None),
-                (0.8, Some(1e-3)),
-                (0.8, Some(1.0)),
-                (0.5, Some(10.0)),
-            ] {
+            for (restitution, viscosity) in
+                [(0.9, None), (0.3, None), (0.8, Some(1e-3)), (0.8, Some(1.0)), (0.5, Some(10.0))]
+            {
                 let liquid = viscosity.map(Film::thin);
                 let drag = Drag::Explicit;
                 let matter = Matter { stiffness: 1e4, restitution, liquid, drag };

@@ -16,8 +16,10 @@ const OFFSET: usize = 10;
 const TURN: usize = 21;
 const CHARGED: usize = 24;
 const PAID: usize = 30;
+/// How far the gap is charged for after the step, beside how far it was before.
+const CLOSED: usize = 31;
 /// Numbers of a [`Link`].
-const NUMBERS: usize = 31;
+const NUMBERS: usize = 32;
 
 /// Drag's impulse up to a gap and the drag there, of the pair at an index of the list.
 pub(crate) type Charge<'a> = dyn Fn(u32, f64) -> [f64; 2] + 'a;
@@ -149,7 +151,7 @@ impl Eight {
         (0..EIGHT).filter(|k| self.which >> k & 1 == 1).map(|k| {
             let number = |n: usize| self.numbers[n][k];
             let shear = DVec3::new(number(13), number(14), number(15));
-            let (charged, normal) = (number(24), number(9));
+            let (charged, normal) = (number(CLOSED), number(9));
             (self.index[k], Impulse { charged, normal, shear, ..Impulse::NONE })
         })
     }
@@ -246,7 +248,7 @@ impl Kernel for Work<'_> {
                     for at in (0..EIGHT).step_by(L::WIDTH) {
                         let two = take::<L>(permit, velocities, &eight.slots, at, first);
                         let charged = eight.load::<L>(permit, at).charge_to(&two, duration);
-                        eight.set(at, CHARGED, charged);
+                        eight.set(at, CLOSED, charged);
                     }
                 }
             }

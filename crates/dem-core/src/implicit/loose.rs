@@ -94,8 +94,13 @@ impl Links {
         // The middle of what the gap is expected to be charged for in this step.
         let charged = if impulse.charged.is_finite() { impulse.charged } else { gap };
         let resist = term.resist(pair, column, charged + 0.5 * view.kick() * pair.separation_speed);
+        let which = resist.any() & 1;
+        if let (0, Some(own)) = (which, term.impulse(column)) {
+            // Where nothing resists any more nothing is remembered either.
+            *own = Impulse::NONE;
+        }
         let met = Met::<f64> {
-            which: resist.any(),
+            which,
             slots: [slots],
             list,
             index: [index],

@@ -69,13 +69,13 @@ impl<L: Lane> Resist<L> {
         }
     }
 
-    /// One bit for each pair in which anything resists.
+    /// One bit for each pair in which anything resists, or something that is no number.
     #[inline(always)]
     pub(crate) fn any(&self) -> u32 {
         let [slip, coupling, rolling] = self.across;
         let all = self.drag + self.dashpot + self.rolling + slip + rolling;
-        let zero = L::splat(all.permit(), 0.0);
-        zero.less_bits(all + coupling.most(-coupling))
+        let all = all + coupling.most(-coupling);
+        !all.less_bits(L::splat(all.permit(), f64::MIN_POSITIVE))
     }
 }
 
@@ -167,7 +167,8 @@ impl Links {
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.taken == 0 && self.loose.is_empty()
+        let eights = &self.all_eights[..self.taken.div_ceil(EIGHT)];
+        self.loose.is_empty() && eights.iter().all(|eight| eight.which == 0)
     }
 
     /// Makes links of pairs of which no two have a body in common.

@@ -143,6 +143,9 @@ impl Along {
         a = speed.max(low).min(high);
         for _ in 0..MOST_ITERATIONS {
             let [f, rise] = self.lack(own, a, charge);
+            if f.is_nan() {
+                return f;
+            }
             if f > 0.0 {
                 high = a
             } else {

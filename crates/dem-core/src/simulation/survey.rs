@@ -7,6 +7,8 @@ use crate::{Boundary, Encounter, Pair, PairTerm, Partner, wall_pass};
 
 /// How often the shares of pairs in the limit are refined.
 const REFINEMENTS: u32 = 6;
+/// A refinement that changes the limit by less than this share is the last.
+const WORTH: f64 = 2e-3;
 /// Spheres whose limit is below this many times the least are looked at more closely.
 const CLOSE: f64 = 1.4;
 /// How fast a sphere counts at least, over the fastest.
@@ -57,8 +59,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let mut best = self.limit_by(&mut fastness);
         for _ in 0..REFINEMENTS {
             let finer = self.limit_by(&mut fastness);
-            if finer.time_step > best.time_step {
+            let gain = finer.time_step / best.time_step;
+            if gain > 1.0 {
                 best = finer;
+            }
+            if gain.is_nan() || (gain - 1.0).abs() < WORTH {
+                break;
             }
         }
         best
