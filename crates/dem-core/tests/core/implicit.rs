@@ -55,12 +55,21 @@ impl PairTerm for Drag {
 type Scene = Simulation<Implicit<(Contact<Linear>, Drag)>, NoWalls>;
 
 fn scene(particles: Particles, drag: Drag, rolling_friction: f64) -> Scene {
+    // Small skins: what the copies of pairs remember is of the last time that lists were built.
+    with_skins(particles, drag, rolling_friction, [3e-6, 1e-6])
+}
+
+fn with_skins(
+    particles: Particles,
+    drag: Drag,
+    rolling_friction: f64,
+    [skin, inner]: [f64; 2],
+) -> Scene {
     let normal = Linear::from_restitution(1e3, 0.5, 1e-5).unwrap();
     let rub = PairContact { normal, friction: 0.0, rolling_friction, tangential_damping: 0.0 };
     let contact = Contact::new(particles.classes(), 0, move |_, _| rub, move |_, _| rub);
     let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(1e-6) };
-    // Small skins: what the copies of pairs remember is of the last time that lists were built.
-    let (skin, inner_skin) = (Some(3e-6), Some(1e-6));
+    let (skin, inner_skin) = (Some(skin), Some(inner));
     let settings = Settings { start_overlap: 0.5, skin, inner_skin, ..settings };
     Simulation::new(particles, Implicit::new((contact, drag)), NoWalls, settings).unwrap()
 }
@@ -94,6 +103,35 @@ fn attention_costs_no_pair_its_impulse() {
     let apart = |(a, b): (&Particle, &Particle)| (a.velocity - b.velocity).length();
     let most = quiet.iter().zip(&asking).map(apart).fold(0.0, f64::max);
     assert!(most < 1e-9 * fastest, "{most:e} of {fastest}");
+}
+
+/// Spheres so dense that a chunk has more pairs that touch than are coloured at a time: their order
+/// does not hang on what else the lists hold.
+#[test]
+fn no_skin_changes_a_bit_of_a_dense_packing() {
+    let run = |skins: [f64; 2]| {
+        let mut particles = Particles::new(vec![Class::new(R, 2500.0, 0).unwrap()]).unwrap();
+        for k in 0..1000_u32 {
+            let at = DVec3::new(f64::from(k % 10), f64::from(k / 10 % 10), f64::from(k / 100));
+            // Half a row apart in every other layer: many neighbours, some touch and some do not.
+            let shift = 0.5 * (at.z % 2.0) * DVec3::new(1.0, 1.0, 0.0);
+            let wave =
+                2e-5 * DVec3::new((3.0 * at.y).sin(), (2.0 * at.z).sin(), (5.0 * at.x).sin());
+            let x = 1.99 * R * (DVec3::new(1.0, 1.0, 0.72) * at + shift) + wave;
+            particles.push(0, x, 0.02 * wave / R, DVec3::ZERO).unwrap();
+        }
+        let drag = Drag { coefficient: 0.05, reach: 3e-5, asks: false };
+        let mut scene = with_skins(particles, drag, 0.0, skins);
+        scene.advance(40).unwrap();
+        let mut touching = 0;
+        scene.survey(|pair, _| touching += u32::from(pair.encounter.gap < 0.0));
+        assert!(touching > 2_000, "{touching}");
+        let mut all: Vec<_> = scene.particles().iter().collect();
+        all.sort_by_key(|p| p.id);
+        all.iter().flat_map(|p| p.position.to_array().map(f64::to_bits)).collect::<Vec<_>>()
+    };
+    let one = run([1e-4, 1e-6]);
+    assert!(one == run([6e-4, 4e-4]) && one == run([3e-4, 2e-5]));
 }
 
 /// A sphere at the end of a row spins, and nothing bounds the torques of rolling friction: after one
