@@ -94,6 +94,7 @@ fn steps(bench: &mut Criterion) {
         });
     }
     run(bench, "ten steps/contact", contact);
+    run(bench, "ten steps/contact and ()", |p| Some((contact(p)?, ())));
     run(bench, "ten steps/contact and none", |p| Some((contact(p)?, None::<Contact<Linear>>)));
 }
 

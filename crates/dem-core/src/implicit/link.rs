@@ -193,10 +193,10 @@ impl<L: Lane> Link<L> {
         let ([[mi, ti], [mj, tj]], [a, b]) = (self.inverse, self.levers);
         let force = shear - self.normal * push;
         let arm = self.normal.cross(shear);
-        two.first.v = two.first.v + force * mi;
+        two.first.v += force * mi;
         two.second.v = two.second.v - force * mj;
-        two.first.w = two.first.w + arm * (ti * a);
-        two.second.w = two.second.w + arm * (tj * b);
+        two.first.w += arm * (ti * a);
+        two.second.w += arm * (tj * b);
     }
 
     /// Which pairs move so fast that they have to be searched for, one bit each.
@@ -241,7 +241,7 @@ impl<L: Lane> Link<L> {
         let change = push - self.push;
         self.give(two, change, shear);
         self.push = push;
-        self.shear = self.shear + shear;
+        self.shear += shear;
         Change {
             changed: change.most(-change) + shear.dot(shear).sqrt(),
             all: push.most(-push) + self.shear.dot(self.shear).sqrt(),

@@ -310,7 +310,7 @@ impl More {
             let change = coupled.change(y, now);
             // The slip's own impulse has no slope then and would only fade.
             shear = change.slip + link.shear;
-            self.couple = self.couple + change.rolling;
+            self.couple += change.rolling;
             amount = Change { changed: length(change.rolling), all: length(self.couple) };
             turn(link, two, link.normal.cross(change.rolling) * self.reduced);
         }
@@ -321,7 +321,7 @@ impl More {
             // Without any motion the share is no number or more than one: both mean no bound.
             let share = (self.rolling_limit / length(wanted)).least(1.0);
             let change = wanted * share - self.rolling;
-            self.rolling = self.rolling + change;
+            self.rolling += change;
             turn(link, two, change);
             let (changed, all) = (length(change), length(self.rolling));
             let arm = 1.0 / self.reduced;
@@ -334,7 +334,7 @@ impl More {
 /// Turns both bodies against each other.
 fn turn(link: &Link<f64>, two: &mut Two<f64>, couple: Vector<f64>) {
     let [[_, ti], [_, tj]] = link.inverse;
-    two.first.w = two.first.w + couple * ti;
+    two.first.w += couple * ti;
     two.second.w = two.second.w - couple * tj;
 }
 

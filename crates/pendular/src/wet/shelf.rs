@@ -218,7 +218,6 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     }
 
     #[inline(always)]
-    #[expect(clippy::type_complexity, reason = "what is kept, of each")]
     fn all_far<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<&Far<C, N, S>>> {
         let first = self.far.get(seats[0])?;
         let mut far = L::each(|_| first);

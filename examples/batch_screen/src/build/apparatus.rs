@@ -187,4 +187,68 @@ mod tests {
         }
         assert_eq!(scene.motion.reach_mm(), [0.08, 0.05, 1.1]);
     }
+
+    /// The demo with these lines in place of its housing's heading, which they come before.
+    fn scene(lines: &str) -> Scene {
+        let demo = crate::builtin::find("demo").unwrap();
+        Scene::parse(
+            &demo.replace("[housing]", &format!("{lines}\n[housing]")),
+            Path::new("s.toml"),
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn a_screen_from_a_file_moves_as_the_built_in_one_does() {
+        let folder = tempfile::tempdir().unwrap();
+        let sheet =
+            rectangle(DVec3::new(-40.0, -40.0, 0.0), DVec3::X * 80.0, DVec3::Y * 80.0, [2, 2]);
+        let mut file = std::fs::File::create(folder.path().join("sheet.stl")).unwrap();
+        sheet.unwrap().write_stl(&mut file, 1.0).unwrap();
+        for moves in [true, false] {
+            let part = format!(
+                "[[parts]]\nname = \"wires\"\nstl = \"sheet.stl\"\nmaterial = \"steel\"\nmoves = {moves}\n"
+            );
+            let scene = scene(&part);
+            let mut walls = walls(&scene, folder.path()).unwrap();
+            let named = |name: &str| walls.parts().iter().position(|part| part.name == name);
+            let (sheet, frame) = (named("wires").unwrap() as u32, named("frame").unwrap() as u32);
+            assert!(!walls.parts().iter().any(|part| part.name.starts_with("wire-")));
+            for time in [1e-3, 7.3e-3, 0.0421] {
+                walls.move_to(time, time);
+                let (by, at) = (walls.displacement(frame), walls.velocity(frame));
+                assert!(by.length() > 1e-5 && at.length() > 1e-3);
+                let (own, speed) = (walls.displacement(sheet), walls.velocity(sheet));
+                assert_eq!([own, speed], if moves { [by, at] } else { [DVec3::ZERO; 2] });
+                // A sphere that rests on the sheet touches it wherever it is.
+                let on_it = DVec3::new(3e-3, 2e-3, 2e-3 - 1e-6) + own;
+                let (mut near, mut touches) = (Vec::new(), Vec::new());
+                walls.candidates(sheet, on_it, 3e-3, &mut near);
+                walls.touches(sheet, &near, on_it, 2e-3, 0.0, &mut touches);
+                assert!(touches.iter().any(|touch| (touch.gap + 1e-6).abs() < 1e-9), "{touches:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn films_on_frame_and_wires_are_as_fine_as_asked_for() {
+        let count = |lines: &str| {
+            let demo = crate::builtin::find("demo").unwrap();
+            let scene = Scene::parse(
+                &demo.replace("[screen]", &format!("[screen]\n{lines}")),
+                Path::new("s.toml"),
+            );
+            let walls = walls(&scene.unwrap(), Path::new(".")).unwrap();
+            let frame = walls.parts().iter().find(|part| part.name == "frame").unwrap();
+            let wires = walls.parts().iter().filter(|part| part.name.starts_with("wire-"));
+            let wires: u32 = wires.map(|wire| wire.shape.element_count()).sum();
+            (frame.shape.element_count(), wires)
+        };
+        let (_, plain) = count("");
+        assert_eq!(count("frame_elements = [30, 5]").0, 150);
+        // A quarter of the pitch: about four times as many.
+        let finer = count("wire_element_mm = 2.0").1;
+        let coarser = count("wire_element_mm = 1000.0").1;
+        assert!(finer > 3 * plain && coarser < plain / 3, "{finer} {plain} {coarser}");
+    }
 }
