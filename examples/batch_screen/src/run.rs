@@ -136,7 +136,9 @@ impl<T: Makeup> Run<'_, T> {
             return self.finish(begun);
         }
         if self.simulation.step() == 0 {
-            // From here on the run can be taken up again, whenever it is killed.
+            // From here on the run can be taken up again, whenever it is killed. A bed at rest has no
+            // columns to go on from: what it says of the limit is kept.
+            self.limit = self.limit.min(self.simulation.limit_now().time_step);
             self.save(begun)?;
         }
         progress.begin(self.simulation.step(), self.simulation.time());
