@@ -354,8 +354,10 @@ fn killed(set: &str) -> serde_json::Value {
         all
     };
     assert!(frames("whole").len() > 6 && frames("whole") == frames("cut"));
-    let imbalance = |run: &str| summary(&folder.path().join(run))["liquid_imbalance"].clone();
-    assert_eq!(imbalance("whole"), imbalance("cut"));
+    for key in ["liquid_imbalance", "least_limit_s", "largest_overlap", "fraction_retained"] {
+        let said = |run: &str| summary(&folder.path().join(run))[key].clone();
+        assert_eq!(said("whole"), said("cut"), "{key}");
+    }
     assert!(folder.path().join("cut/report.html").exists());
     summary(&folder.path().join("cut"))
 }
