@@ -53,8 +53,6 @@ pub struct Simulation<T: PairTerm, B> {
     departures: Vec<Departure>,
     profile: Profile,
     limit: Limit,
-    /// How many rounds the last step of an implicit term took.
-    rounds: u32,
     /// Scratch: what remembered impulses do to the velocities.
     pushed: Vec<crate::particles::Velocity>,
     /// 1/m and 1/I of the classes, for an implicit term.
@@ -118,7 +116,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             departures: Vec::new(),
             profile: Profile::default(),
             limit,
-            rounds: 1,
             pushed: Vec::new(),
             inverse,
             passes: crate::Passes::default(),

@@ -12,14 +12,15 @@ use crate::view::motion;
 
 /// How many lie side by side.
 pub(crate) const EIGHT: usize = 8;
+// Where some of the numbers are; a vector takes three places.
+const PUSH: usize = 9;
 const OFFSET: usize = 10;
+const SHEAR: usize = 13;
 const TURN: usize = 21;
 const CHARGED: usize = 24;
 const PAID: usize = 30;
-/// How far the gap is charged for after the step, beside how far it was before.
-const CLOSED: usize = 31;
 /// Numbers of a [`Link`].
-const NUMBERS: usize = 32;
+const NUMBERS: usize = 31;
 
 /// Drag's impulse up to a gap and the drag there, of the pair at an index of the list.
 pub(crate) type Charge<'a> = dyn Fn(u32, f64) -> [f64; 2] + 'a;
@@ -56,22 +57,22 @@ impl Eight {
                 [self.number(permit, at, 5), self.number(permit, at, 6)],
                 [self.number(permit, at, 7), self.number(permit, at, 8)],
             ],
-            push: self.number(permit, at, 9),
+            push: self.number(permit, at, PUSH),
             along: Normal {
-                offset: self.number(permit, at, 10),
+                offset: self.number(permit, at, OFFSET),
                 slope: self.number(permit, at, 11),
                 answer: self.number(permit, at, 12),
             },
-            shear: self.vector(permit, at, 13),
+            shear: self.vector(permit, at, SHEAR),
             slip: Slip {
                 slope: self.number(permit, at, 16),
                 answer: self.number(permit, at, 17),
                 offset: self.vector(permit, at, 18),
             },
-            turn: self.number(permit, at, 21),
+            turn: self.number(permit, at, TURN),
             gap: self.number(permit, at, 22),
             weight: self.number(permit, at, 23),
-            charged: self.number(permit, at, 24),
+            charged: self.number(permit, at, CHARGED),
             rate: self.number(permit, at, 25),
             room: self.number(permit, at, 26),
             mobility: self.number(permit, at, 27),
@@ -107,10 +108,10 @@ impl Eight {
 
     #[inline(always)]
     fn set_impulses<L: Lane>(&mut self, at: usize, link: &Link<L>) {
-        self.set(at, 9, link.push);
-        self.set(at, 13, link.shear.x);
-        self.set(at, 14, link.shear.y);
-        self.set(at, 15, link.shear.z);
+        self.set(at, PUSH, link.push);
+        self.set(at, SHEAR, link.shear.x);
+        self.set(at, SHEAR + 1, link.shear.y);
+        self.set(at, SHEAR + 2, link.shear.z);
     }
 
     #[inline(always)]
@@ -150,8 +151,8 @@ impl Eight {
     pub(super) fn impulses(&self) -> impl Iterator<Item = (u32, Impulse)> {
         (0..EIGHT).filter(|k| self.which >> k & 1 == 1).map(|k| {
             let number = |n: usize| self.numbers[n][k];
-            let shear = DVec3::new(number(13), number(14), number(15));
-            let (charged, normal) = (number(CLOSED), number(9));
+            let shear = DVec3::new(number(SHEAR), number(SHEAR + 1), number(SHEAR + 2));
+            let (charged, normal) = (number(CHARGED), number(PUSH));
             (self.index[k], Impulse { charged, normal, shear, ..Impulse::NONE })
         })
     }
@@ -196,7 +197,7 @@ pub(crate) enum Task {
     Start { drift: f64 },
     /// A visit of each.
     Pass { duration: f64, share: f64, forward: bool },
-    /// Notes how far the gaps are charged for.
+    /// The end: how far the gaps are charged for now.
     Close { duration: f64 },
 }
 
@@ -248,7 +249,7 @@ impl Kernel for Work<'_> {
                     for at in (0..EIGHT).step_by(L::WIDTH) {
                         let two = take::<L>(permit, velocities, &eight.slots, at, first);
                         let charged = eight.load::<L>(permit, at).charge_to(&two, duration);
-                        eight.set(at, CLOSED, charged);
+                        eight.set(at, CHARGED, charged);
                     }
                 }
             }

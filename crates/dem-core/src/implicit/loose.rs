@@ -318,7 +318,7 @@ impl More {
             let spin = two.first.w - two.second.w;
             let rolling = spin - link.normal * spin.dot(link.normal);
             let wanted = self.rolling - rolling * self.rolling_inertia;
-            // Without any motion the share is no number or more than one: both mean no bound.
+            // Without any motion the share is infinite: no bound.
             let share = (self.rolling_limit / length(wanted)).least(1.0);
             let change = wanted * share - self.rolling;
             self.rolling += change;

@@ -105,13 +105,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
     fn resist(&mut self, times: [f64; 2]) {
         self.passes.steps += 1;
-        // Most steps are like the one before. If that took a single round, what a chunk remembers is
-        // written down while its links are still near.
-        let at_once = self.rounds == 1;
-        self.rounds = 0;
-        loop {
-            self.rounds += 1;
-            let first = self.rounds == 1;
+        for round in 1..=MOST_ROUNDS {
+            self.passes.passes += 2;
+            let first = round == 1;
             self.inside(times, |solving, chunk, velocities| {
                 if first {
                     solving.start_inside(chunk, velocities);
@@ -124,26 +120,19 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             self.across(times, true);
             let across = self.across(times, false);
             let inside = self.inside(times, |solving, chunk, velocities| {
-                let change = solving.pass_inside(chunk, velocities, false);
-                if first && at_once {
-                    solving.close_inside(chunk, velocities);
-                }
-                change
+                solving.pass_inside(chunk, velocities, false)
             });
             let change = inside + across;
             let settled = change.changed <= SETTLED * change.all;
-            if settled || self.rounds == MOST_ROUNDS {
-                self.passes.at_most += u64::from(!settled);
+            if settled {
                 break;
             }
+            self.passes.at_most += u64::from(round == MOST_ROUNDS);
         }
-        self.passes.passes += 2 * u64::from(self.rounds);
-        if !at_once || self.rounds > 1 {
-            self.inside(times, |solving, chunk, velocities| {
-                solving.close_inside(chunk, velocities);
-                Change::default()
-            });
-        }
+        self.inside(times, |solving, chunk, velocities| {
+            solving.close_inside(chunk, velocities);
+            Change::default()
+        });
         self.close_across(times);
     }
 
