@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::PairTerm;
 use crate::chunk::{List, Note, Roll, Sum};
-use crate::implicit::{Colours, Impulse, Inverse, Links, Met};
+use crate::implicit::{Colours, Impulse, Inverse, Links, Met, middle};
 use crate::lane::{Lane, Vector};
 use crate::lists::Entry;
 use crate::pairs::{Columns, Geometry, Loads, Pairs, Picked};
@@ -167,11 +167,8 @@ fn meet<T: PairTerm, L: Lane>(
     let mut columns = Picked { columns: list.columns, at };
     let mut impulse = |k| pass.term.impulse(columns.column(k)).copied().unwrap_or_default();
     let impulses: L::Each<Impulse> = L::each(&mut impulse);
-    // The middle of what the gap is expected to be charged for in this step.
-    let charged = L::pack(permit, &impulses, |impulse| impulse.charged);
-    let charged = charged.if_less(L::splat(permit, f64::INFINITY), charged, geometry.gap);
-    let middle = charged + L::splat(permit, 0.5 * view.kick()) * geometry.separation_speed;
-    let resist = pass.term.resist_lanes(pairs, &mut columns, middle);
+    let gap = middle(&impulses, geometry, view.kick());
+    let resist = pass.term.resist_lanes(pairs, &mut columns, gap);
     let (slots, index) = (L::each(|k| pairs.entries[k]), L::each(|k| at[k]));
     let any = resist.any();
     // Where nothing resists any more nothing is remembered either.

@@ -191,55 +191,53 @@ pub(super) fn add<L: Lane>(
 }
 
 /// What is done with the links of a chunk.
-#[derive(Clone, Copy)]
-pub(crate) enum Task {
-    /// The sums that scale a start, and what the start does to `pushed`.
-    Start { drift: f64 },
+pub(crate) enum Task<'a> {
+    /// The sums that scale a start; what the start does to the velocities is added to `pushed`.
+    Start { drift: f64, pushed: &'a mut [Velocity] },
     /// A visit of each.
-    Pass { duration: f64, share: f64, forward: bool },
+    Pass { duration: f64, share: f64, forward: bool, charge: &'a Charge<'a> },
     /// The end: how far the gaps are charged for now.
     Close { duration: f64 },
 }
 
-/// A [`Task`] for the links of a chunk.
-pub(crate) struct Work<'a> {
-    pub(crate) task: Task,
-    pub(crate) eights: &'a mut [Eight],
-    pub(crate) velocities: &'a mut [Velocity],
-    /// Scratch for the start.
-    pub(crate) pushed: &'a mut [Velocity],
-    /// Slot of the first of the velocities.
-    pub(crate) first: u32,
-    pub(crate) charge: &'a Charge<'a>,
-    /// The two sums of the start or of a pass, lane by lane.
-    pub(crate) sums: &'a mut [[f64; EIGHT]; 2],
+/// Does a task for links between bodies whose velocities these are, the first of them that of slot
+/// `first`; returns the two sums of a start or of a pass.
+pub(crate) fn work(
+    task: Task<'_>,
+    eights: &mut [Eight],
+    velocities: &mut [Velocity],
+    first: u32,
+) -> [f64; 2] {
+    let mut sums = [[0.0; EIGHT]; 2];
+    in_widest(Work { task, eights, velocities, first, sums: &mut sums });
+    sums.map(|lanes| lanes.iter().sum())
 }
 
-impl Work<'_> {
-    /// Does it; returns the sums.
-    pub(crate) fn run(self) -> [f64; 2] {
-        let mut sums = [[0.0; EIGHT]; 2];
-        in_widest(Work { sums: &mut sums, ..self });
-        sums.map(|lanes| lanes.iter().sum())
-    }
+struct Work<'a> {
+    task: Task<'a>,
+    eights: &'a mut [Eight],
+    velocities: &'a mut [Velocity],
+    first: u32,
+    /// Lane by lane, so that no sum depends on how wide the registers are.
+    sums: &'a mut [[f64; EIGHT]; 2],
 }
 
 impl Kernel for Work<'_> {
     #[inline(always)]
     fn run<L: Lane>(self, permit: L::Permit) {
-        let Work { task, eights, velocities, pushed, first, charge, sums } = self;
+        let Work { task, eights, velocities, first, sums } = self;
         match task {
-            Task::Start { drift } => {
+            Task::Start { drift, pushed } => {
                 for eight in eights {
                     start::<L>(permit, eight, velocities, pushed, first, drift, sums);
                 }
             }
-            Task::Pass { duration, share, forward: true } => {
+            Task::Pass { duration, share, forward: true, charge } => {
                 for eight in eights {
                     pass::<L>(permit, eight, velocities, first, [duration, share], charge, sums);
                 }
             }
-            Task::Pass { duration, share, forward: false } => {
+            Task::Pass { duration, share, forward: false, charge } => {
                 for eight in eights.iter_mut().rev() {
                     pass::<L>(permit, eight, velocities, first, [duration, share], charge, sums);
                 }
@@ -320,7 +318,7 @@ fn pass<L: Lane>(
     }
 }
 
-/// Adds numbers lane by lane, so that no sum depends on how wide the registers are.
+/// Adds numbers lane by lane.
 #[inline(always)]
 fn add_up<L: Lane>(permit: L::Permit, sums: &mut [[f64; EIGHT]; 2], at: usize, of: [L; 2]) {
     for (sum, of) in sums.iter_mut().zip(of) {

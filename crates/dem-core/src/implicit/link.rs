@@ -22,6 +22,19 @@ pub(crate) struct Met<'a, L: Lane> {
     pub(crate) impulses: L::Each<Impulse>,
 }
 
+/// The middle of what the gaps are expected to be charged for in this step.
+#[inline(always)]
+pub(crate) fn middle<L: Lane>(
+    impulses: &L::Each<Impulse>,
+    geometry: &Geometry<L>,
+    duration: f64,
+) -> L {
+    let permit = geometry.gap.permit();
+    let charged = L::pack(permit, impulses, |impulse| impulse.charged);
+    let charged = charged.if_less(L::splat(permit, f64::INFINITY), charged, geometry.gap);
+    charged + L::splat(permit, 0.5 * duration) * geometry.separation_speed
+}
+
 /// The impulses between two bodies, and what decides them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Link<L> {

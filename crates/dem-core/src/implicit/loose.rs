@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::link::{Body, Change, Inverse, Link, Met, Two};
+use super::link::{Body, Change, Inverse, Link, Met, Two, middle};
 use super::shear::{Coupled, Motion};
 use super::{Impulse, Links, Resist};
 use crate::chunk::List;
@@ -90,10 +90,8 @@ impl Links {
         column: &mut T::Column,
     ) {
         let impulse = term.impulse(column).copied().unwrap_or_default();
-        let gap = pair.encounter.gap;
-        // The middle of what the gap is expected to be charged for in this step.
-        let charged = if impulse.charged.is_finite() { impulse.charged } else { gap };
-        let resist = term.resist(pair, column, charged + 0.5 * view.kick() * pair.separation_speed);
+        let geometry = Geometry::of(pair);
+        let resist = term.resist(pair, column, middle(&[impulse], &geometry, view.kick()));
         let which = resist.any() & 1;
         if let (0, Some(own)) = (which, term.impulse(column)) {
             // Where nothing resists any more nothing is remembered either.
@@ -104,7 +102,7 @@ impl Links {
             slots: [slots],
             list,
             index: [index],
-            geometry: &Geometry::of(pair),
+            geometry: &geometry,
             resist,
             impulses: [impulse],
         };

@@ -13,8 +13,9 @@ use glam::DVec3;
 use crate::lane::Lane;
 
 pub(crate) use colours::Colours;
-pub(crate) use eight::{Charge, EIGHT, Eight, Task, Work};
-pub(crate) use link::{Change, Inverse, Met};
+use eight::Eight;
+pub(crate) use eight::{EIGHT, Task, work};
+pub(crate) use link::{Change, Inverse, Met, middle};
 pub(crate) use loose::Loose;
 pub use term::Implicit;
 

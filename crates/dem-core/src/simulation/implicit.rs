@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{Simulation, parallel};
 use crate::chunk::{Chunk, List, Note, WallPair};
-use crate::implicit::{Change, Charge, Eight, Impulse, Inverse, Links, Loose, Passes, Task, Work};
+use crate::implicit::{Change, Impulse, Inverse, Links, Loose, Passes, Task, work};
 use crate::integrate::{Moved, drift};
 use crate::particles::Velocity;
 use crate::{Boundary, DVec3, PairTerm, wall_pass};
@@ -232,8 +232,7 @@ impl<T: PairTerm> Solving<'_, T> {
         let mut sums = [0.0; 2];
         let mut started = Vec::new();
         for links in lists {
-            let task = Task::Start { drift };
-            let own = work(task, links.eights(), velocities, pushed, first, &|_, _| [0.0; 2]);
+            let own = work(Task::Start { drift, pushed }, links.eights(), velocities, first);
             let loose = links.start_loose(velocities, pushed, first, drift);
             sums = std::array::from_fn(|k| sums[k] + (own[k] + loose[k]));
             started.push(links);
@@ -265,7 +264,7 @@ impl<T: PairTerm> Solving<'_, T> {
         let charge_loose =
             |loose: &Loose, gap: f64| term.charge(column(loose, walls, &inside.columns), gap);
         let charge = |index: u32, gap: f64| term.charge(&inside.columns[index as usize], gap);
-        let (first, task) = (range.start, Task::Pass { duration, share: links.share, forward });
+        let (first, share) = (range.start, links.share);
         let one_by_one = |links: &mut Links, velocities: &mut [Velocity]| {
             links.pass_loose(velocities, first, duration, &charge_loose, forward)
         };
@@ -273,7 +272,8 @@ impl<T: PairTerm> Solving<'_, T> {
         if !forward {
             change = one_by_one(links, velocities);
         }
-        let [changed, all] = work(task, links.eights(), velocities, &mut [], first, &charge);
+        let task = Task::Pass { duration, share, forward, charge: &charge };
+        let [changed, all] = work(task, links.eights(), velocities, first);
         change = change + Change { changed, all };
         if forward {
             change = change + one_by_one(links, velocities);
@@ -284,21 +284,16 @@ impl<T: PairTerm> Solving<'_, T> {
     /// Writes the impulses inside a chunk and with walls back to the columns of the pairs.
     fn close_inside(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
         let Self { term, times: [duration, _], .. } = *self;
-        let Chunk { links, inside, walls, range, .. } = chunk;
-        let first = range.start;
-        let task = Task::Close { duration };
-        work(task, links.eights(), velocities, &mut [], first, &|_, _| [0.0; 2]);
+        let mut links = std::mem::take(&mut chunk.links);
+        let first = chunk.range.start;
+        work(Task::Close { duration }, links.eights(), velocities, first);
         links.close_eights(|index, impulse| {
-            remember(term, &mut inside.columns[index as usize], impulse);
+            remember(term, chunk.column(List::Inside, index), impulse);
         });
         links.close_loose(velocities, first, duration, |loose, impulse| {
-            let index = loose.index as usize;
-            let column = match loose.list {
-                List::Wall { memory } => &mut walls[index].memories[memory as usize].column,
-                _ => &mut inside.columns[index],
-            };
-            remember(term, column, impulse);
+            remember(term, chunk.column(loose.list, loose.index), impulse);
         });
+        chunk.links = links;
     }
 }
 
@@ -308,16 +303,4 @@ fn column<'a, C>(loose: &Loose, walls: &'a [WallPair<C>], inside: &'a [C]) -> &'
         List::Wall { memory } => &walls[loose.index as usize].memories[memory as usize].column,
         _ => &inside[loose.index as usize],
     }
-}
-
-/// Does a task for links that lie side by side.
-fn work(
-    task: Task,
-    eights: &mut [Eight],
-    velocities: &mut [Velocity],
-    pushed: &mut [Velocity],
-    first: u32,
-    charge: &Charge<'_>,
-) -> [f64; 2] {
-    Work { task, eights, velocities, pushed, first, charge, sums: &mut Default::default() }.run()
 }
