@@ -13,6 +13,7 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
 
 use crate::implicit_drag::{DENSITY, Pairs, STIFFNESS, Scene, implicit};
+use crate::lone_pairs::LoneResistances;
 use crate::rig;
 
 /// Wet spheres of two sizes, a few micrometres apart, from a `height` m over a floor that shakes.
@@ -153,6 +154,21 @@ fn threads_and_skins_do_not_change_a_bit_of_implicit_drags() {
     }
     let (skin, inner_skin) = (Some(4e-4), Some(1e-5));
     assert!(one == run(Settings { skin, inner_skin, ..Settings::new(h) }), "skins");
+}
+
+/// What resists in several pairs at once is to the bit what resists in each.
+#[test]
+fn resistances_one_at_a_time_give_the_same_bits() {
+    let settings = || Settings::new(bed_step());
+    let (particles, walls, terms) = bed(9, 1.0, 0.07, 1.245e-3);
+    let mut at_once = implicit(particles, walls, terms, settings());
+    let (particles, walls, terms) = bed(9, 1.0, 0.07, 1.245e-3);
+    let terms = Implicit::new(LoneResistances(terms));
+    let mut each = Scene::new(particles, terms, MeshWalls(walls), settings()).unwrap();
+    at_once.advance(300).unwrap();
+    each.advance(300).unwrap();
+    assert!(at_once.term().inner().1.alive() > 1_000);
+    assert!(rig::bits(&at_once) == rig::bits(&each));
 }
 
 /// A run that is stopped and goes on ends with the same bits.

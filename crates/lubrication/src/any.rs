@@ -290,6 +290,9 @@ mod tests {
                     let at_once = AnyNormalCurve::coefficients(&curves.each_ref(), lanes);
                     let each = std::array::from_fn(|k| curves[k].coefficient(gaps[k]));
                     assert_eq!(bits(at_once.unpack()), bits(each), "{model:?} {gaps:?}");
+                    let at_once = AnyNormalCurve::clearances(&curves.each_ref(), lanes);
+                    let each = std::array::from_fn(|k| curves[k].clearance(gaps[k]));
+                    assert_eq!(bits(at_once.unpack()), bits(each), "{model:?} {gaps:?}");
                 }
                 for model in TangentialModel::ALL {
                     let law = model.with(gap.into());

@@ -176,7 +176,7 @@ impl Clearance {
         }
     }
 
-    /// [`Clearance::weight_integral`] and [`Clearance::weight`] in overlap.
+    /// [`Clearance::weight_integral`] and, to rounding, [`Clearance::weight`] in overlap.
     pub(crate) fn weighted(&self, gap: f64) -> [f64; 2] {
         match self.overlap {
             Overlap::Fade => {
@@ -190,11 +190,7 @@ impl Clearance {
 
     /// ∫ weight dS from 0 to an overlap `gap` < 0, m.
     pub(crate) fn weight_integral(&self, gap: f64) -> f64 {
-        match self.overlap {
-            Overlap::Fade => self.contact * (gap / self.contact).exp_m1(),
-            Overlap::Full => gap,
-            Overlap::Off => 0.0,
-        }
+        self.weighted(gap)[0]
     }
 }
 

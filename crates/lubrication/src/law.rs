@@ -51,7 +51,7 @@ pub trait NormalCurve: Copy {
     /// G(S) = ∫ c_n dS from gap 0 to `gap`, N s: the impulse that a slow change of the gap costs.
     fn impulse(&self, gap: f64) -> f64;
 
-    /// G and c_n at `gap`, to rounding, for whoever wants both.
+    /// G (N s) and c_n (N s/m) at `gap` m, for whoever wants both; c_n to rounding of that at contact.
     #[inline]
     fn charge(&self, gap: f64) -> [f64; 2] {
         [self.impulse(gap), self.coefficient(gap)]

@@ -124,18 +124,8 @@ impl NormalCurve for Pitois2000Curve {
 
     #[inline]
     fn impulse(&self, gap: f64) -> f64 {
-        if gap < 0.0 {
-            return self.contact_coefficient() * self.clearance.weight_integral(gap);
-        }
-        let (s, contact) = (self.clearance.at(gap), self.contact_ratio());
-        let ratio = self.ratio(s);
-        let edge = (1.0 + contact) / (1.0 + ratio);
-        let logarithm = self.strength * (ratio / contact * edge * edge).ln();
-        let floor = self.clearance.floor();
-        if floor == 0.0 {
-            return logarithm;
-        }
-        self.contact_coefficient() * gap.min(floor) + logarithm
+        let [impulse, _] = self.charge(gap);
+        impulse
     }
 
     #[inline]
@@ -149,7 +139,7 @@ impl NormalCurve for Pitois2000Curve {
         // X = 1 − ρ without cancellation: b²/(s² + b²) = 1 − ρ².
         let wetted = self.width_squared / (s * s + self.width_squared) / (1.0 + ratio);
         let edge = (1.0 + contact) / (1.0 + ratio);
-        let mut impulse = self.strength * Lane::logarithm(ratio / contact * edge * edge);
+        let mut impulse = self.strength * (ratio / contact * edge * edge).ln();
         let floor = self.clearance.floor();
         if floor > 0.0 {
             impulse += self.contact_coefficient() * gap.min(floor);

@@ -129,6 +129,11 @@ proptest! {
             let rounding = 1e-14 * 6.0 * std::f64::consts::PI * b.reduced_radius().powi(2);
             let allowed = rounding + 1e-8 * (k + numerical.abs());
             prop_assert!(error <= allowed, "{error} {k} {numerical}");
+            let ([impulse, drag], c) = (curve.charge(to), curve.coefficient(to));
+            prop_assert_eq!(impulse, curve.impulse(to));
+            // far in overlap to rounding of that at contact
+            let allowed = 1e-12 * c + 1e-15 * curve.coefficient(0.0) + TINY;
+            prop_assert!((drag - c).abs() <= allowed, "{drag} {c}");
         }
     }
 
