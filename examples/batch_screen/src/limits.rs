@@ -11,9 +11,11 @@ use crate::build::{self, Built};
 use crate::scene::{Packing, Scene};
 
 /// What a row of the table is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
-    /// Above it the scheme is unstable: the run refuses.
+    /// All terms together: above it the scheme is unstable, and the run refuses.
+    Limit,
+    /// The stability limit of one term, if it acted alone.
     Stability,
     /// Above it results lose accuracy.
     Accuracy,
@@ -28,6 +30,8 @@ pub(crate) struct Row {
     pub(crate) who: String,
     /// Longest time step, s.
     pub(crate) time_step: f64,
+    /// What a longer step costs, if that is accuracy.
+    pub(crate) cost: &'static str,
 }
 
 /// Steps in the duration of a contact that keep the restitution within about 1 %.
@@ -38,22 +42,24 @@ const TRAVEL: f64 = 0.05;
 /// Share of the time constant of a bridge's stiffness that a step may have.
 const BRIDGE_SHARE: f64 = 0.1;
 
-/// All rows: stability limits first, each kind with the tightest one first.
+/// All rows: the limit first, then those of single terms, then accuracy, each kind with the tightest
+/// one first.
 pub(crate) fn table(scene: &Scene, built: &Built) -> Vec<Row> {
     let classes = built.particles.classes();
     let name = |class: usize| scene.classes[class].name.clone();
-    let stability = Limit::table(classes, &build::loads_of(built)).into_iter().map(|limit| Row {
-        term: limit.term,
-        kind: Kind::Stability,
+    let row = |kind, term, limit: &Limit| Row {
+        term,
+        kind,
         who: name(limit.class),
         time_step: limit.time_step,
-    });
-    let mut rows: Vec<Row> = stability.collect();
+        cost: "",
+    };
+    // Terms that act together leave no more than each of them alone would.
+    let mut rows = vec![row(Kind::Limit, "all terms together", &build::limit(built))];
+    let alone = Limit::table(classes, &build::loads_of(built));
+    rows.extend(alone.iter().map(|limit| row(Kind::Stability, limit.term, limit)));
     rows.extend(accuracy(scene, built, classes));
-    rows.sort_by(|a, b| {
-        let first = |row: &Row| row.kind == Kind::Accuracy;
-        first(a).cmp(&first(b)).then(a.time_step.total_cmp(&b.time_step))
-    });
+    rows.sort_by(|a, b| a.kind.cmp(&b.kind).then(a.time_step.total_cmp(&b.time_step)));
     rows
 }
 
@@ -64,27 +70,35 @@ fn accuracy(scene: &Scene, built: &Built, classes: &[Class]) -> Vec<Row> {
     let (class, who) = (classes[lightest], scene.classes[lightest].name.clone());
     let reduced_mass = 0.5 * class.mass();
     let duration = PI * (reduced_mass / scene.contact.stiffness).sqrt();
-    let row = |term, who: &str, time_step| Row {
+    let row = |term, who: &str, time_step, cost| Row {
         term,
         kind: Kind::Accuracy,
         who: who.to_owned(),
         time_step,
+        cost,
     };
-    let mut rows = vec![row("contact duration", &who, duration / STEPS_IN_CONTACT)];
+    let restitution = "the restitution of a contact may be off by more than about 1 %";
+    let mut rows = vec![row("contact duration", &who, duration / STEPS_IN_CONTACT, restitution)];
     let (fall, wall) = (drop_speed(scene), built.walls.speed_bound());
     let fastest = fall + wall;
     match &scene.liquid {
-        None => rows.push(row("travel of walls", "screen", TRAVEL * class.radius() / wall)),
+        None => {
+            let cost = "a wall moves by more than 5 % of the smallest radius in a step";
+            rows.push(row("travel of walls", "screen", TRAVEL * class.radius() / wall, cost));
+        }
         Some(liquid) => {
             let volume = bridge_volume(class.radius(), built.derived.film);
             let range = (2.0 * volume / (PI * class.radius())).sqrt();
-            rows.push(row("travel in the capillary range", &who, TRAVEL * range / fastest));
-            rows.push(row("travel of walls in it", "screen", TRAVEL * range / wall));
+            let energy = "the energy of a bridge may be off by more than 1 to 3 % in a pass";
+            let travel = |term, who, speed| row(term, who, TRAVEL * range / speed, energy);
+            rows.push(travel("travel in the capillary range", &who, fastest));
+            rows.push(travel("travel of walls in it", "screen", wall));
             let radius = class.radius();
             let stiffness =
                 PI * radius * liquid.surface_tension * (2.0 * PI * radius / volume).sqrt();
             let time = (reduced_mass / stiffness).sqrt();
-            rows.push(row("bridge stiffness", &who, BRIDGE_SHARE * time));
+            let cost = "the pull of a bridge is followed less closely than it should be";
+            rows.push(row("bridge stiffness", &who, BRIDGE_SHARE * time, cost));
         }
     }
     rows.retain(|row| row.time_step.is_finite());
@@ -107,22 +121,32 @@ pub(crate) fn drop_speed(scene: &Scene) -> f64 {
     (2.0 * -scene.gravity[2].min(0.0) * height).sqrt()
 }
 
-/// The table as text; `time_step` is the one of the run.
+/// The table as text, and what it means for a run with the step `time_step`.
 pub(crate) fn text(rows: &[Row], time_step: f64) -> String {
     let mut text = format!(
         "  {:<30} {:<10} {:<12} {:>11}  used\n",
         "limit of the time step", "kind", "set by", "at most [s]"
     );
+    let used = |row: &Row| 100.0 * time_step / row.time_step;
     for row in rows {
         let kind = match row.kind {
+            Kind::Limit => "limit",
             Kind::Stability => "stability",
             Kind::Accuracy => "accuracy",
         };
-        let used = 100.0 * time_step / row.time_step;
         text += &format!(
-            "  {:<30} {kind:<10} {:<12} {:>11.3e}  {used:.0} %\n",
-            row.term, row.who, row.time_step
+            "  {:<30} {kind:<10} {:<12} {:>11.3e}  {:.0} %\n",
+            row.term,
+            row.who,
+            row.time_step,
+            used(row)
         );
+    }
+    text += "  The first row decides: a longer step is refused. Stability rows say what one term would \
+             allow alone.\n  Accuracy rows are advice: a step above 100 % of one runs, but costs \
+             accuracy.\n";
+    for row in rows.iter().filter(|row| row.kind == Kind::Accuracy && used(row) > 100.0) {
+        text += &format!("  {} at {:.0} %: {}\n", row.term, used(row), row.cost);
     }
     text
 }

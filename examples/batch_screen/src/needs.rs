@@ -11,7 +11,6 @@ use pendular::{Acting, Budget};
 use crate::auto;
 use crate::build::{self, Built, Source};
 use crate::error::RunError;
-use crate::limits;
 use crate::pilot::{self, Pilot};
 use crate::report;
 use crate::scene::{DynamicRupture, LiquidSpec, Scene, WireKind};
@@ -160,7 +159,7 @@ fn ideas(scene: &Scene, built: &Built, budget: &Budget, tolerance: f64) -> Vec<I
         ideas.extend(drags(liquid, &small, &share));
         ideas.extend(capillary(scene, built, liquid, tolerance));
     }
-    ideas.extend(steps(scene, built));
+    ideas.extend(steps(built));
     ideas.extend(wires(scene));
     ideas
 }
@@ -219,12 +218,10 @@ fn capillary(scene: &Scene, built: &Built, liquid: &LiquidSpec, tolerance: f64) 
     })
 }
 
-/// The longest step that is stable and meets the rows of the table that are about accuracy.
-fn steps(scene: &Scene, built: &Built) -> Option<Idea> {
+/// The longest step that is stable, with something to spare.
+fn steps(built: &Built) -> Option<Idea> {
     let step = built.settings.time_step;
-    let rows = limits::table(scene, built);
-    let stable = rows.iter().filter(|row| row.kind == limits::Kind::Stability);
-    let longest = 0.95 * stable.fold(f64::INFINITY, |least, row| least.min(row.time_step));
+    let longest = 0.95 * build::limit(built).time_step;
     // Two digits, rounded down.
     let unit = 10_f64.powf(longest.log10().floor() - 1.0);
     let longest = (longest / unit).floor() * unit;

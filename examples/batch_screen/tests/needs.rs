@@ -47,6 +47,19 @@ fn a_check_tells_stability_from_accuracy_and_who_sets_each_limit() {
         assert!(row(term).contains("accuracy"), "{term}");
     }
     assert!(row("travel of walls in it").contains("screen"));
+    // All terms together allow less than any of them alone, and that is what decides.
+    let step = |row: &str| {
+        let number = row.split_whitespace().rev().nth(2).unwrap();
+        number.parse::<f64>().unwrap_or_else(|_| panic!("no step in {row}"))
+    };
+    let all = row("all terms together");
+    assert!(all.contains(" limit ") && step(&all) < step(&springs), "{all}\n{springs}");
+    let told = row("limit        ");
+    assert!(told.contains(all.split_whitespace().rev().nth(2).unwrap()), "{told}\n{all}");
+    assert!(said.contains("Accuracy rows are advice"), "{said}");
+    let cost = row("contact duration at 151 %");
+    assert!(cost.contains("restitution"), "{cost}");
+    assert!(!said.contains("bridge stiffness at"), "{said}");
 }
 
 #[test]
