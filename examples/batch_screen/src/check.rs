@@ -33,23 +33,13 @@ impl Check<'_> {
         Err(self.fail(key, value, format!("{low} to {high}")))
     }
 
-    /// A law's name or one of `words`.
-    fn name<T: std::str::FromStr>(
-        &self,
-        key: &str,
-        name: &str,
-        words: &[&str],
-    ) -> Result<(), SceneError>
-    where
-        T::Err: std::fmt::Display,
-    {
-        if words.contains(&name) {
+    /// The name of a law or one of `words`.
+    fn name(&self, key: &str, name: &str, laws: &[&str], words: &[&str]) -> Result<(), SceneError> {
+        let known = [laws, words].concat();
+        if known.contains(&name) {
             return Ok(());
         }
-        name.parse::<T>().map(|_| ()).map_err(|e| {
-            let also = words.iter().fold(e.to_string(), |all, word| format!("{all}, {word}"));
-            self.fail(key, format!("`{name}`"), also)
-        })
+        Err(self.fail(key, format!("`{name}`"), known.join(", ")))
     }
 }
 
@@ -235,13 +225,13 @@ fn wet(liquid: &LiquidSpec, check: &Check<'_>) -> Result<(), SceneError> {
     check.positive("liquid.surface_tension", liquid.surface_tension)?;
     check.positive("liquid.viscosity", liquid.viscosity)?;
     check.within("liquid.roughness_share", liquid.roughness_share, 1e-9, 1.0)?;
-    check.name::<AnyCapillary>("liquid.capillary", &liquid.capillary, &[AUTO])?;
-    check.name::<AnyCapillary>("liquid.capillary_wall", &liquid.capillary_wall, &[AUTO])?;
-    let drag = &[NONE, AUTO];
-    check.name::<NormalModel>("liquid.normal_drag", &liquid.normal_drag, drag)?;
-    check.name::<TangentialModel>("liquid.tangential_drag", &liquid.tangential_drag, drag)?;
-    let wall = &liquid.tangential_drag_wall;
-    check.name::<TangentialModel>("liquid.tangential_drag_wall", wall, drag)?;
-    check.name::<AnyRupture>("liquid.rupture", &liquid.rupture, &[])?;
-    check.name::<AnyRupture>("liquid.rupture_wall", &liquid.rupture_wall, &[])
+    let laws = AnyCapillary::ALL.map(|law| law.name());
+    check.name("liquid.capillary", &liquid.capillary, &laws, &[AUTO])?;
+    check.name("liquid.capillary_wall", &liquid.capillary_wall, &laws, &[AUTO])?;
+    let (normal, tangential, drag) = (NormalModel::NAMES, TangentialModel::NAMES, &[NONE, AUTO]);
+    check.name("liquid.normal_drag", &liquid.normal_drag, normal, drag)?;
+    check.name("liquid.tangential_drag", &liquid.tangential_drag, tangential, drag)?;
+    check.name("liquid.tangential_drag_wall", &liquid.tangential_drag_wall, tangential, drag)?;
+    check.name("liquid.rupture", &liquid.rupture, &AnyRupture::NAMES, &[])?;
+    check.name("liquid.rupture_wall", &liquid.rupture_wall, &AnyRupture::NAMES, &[])
 }

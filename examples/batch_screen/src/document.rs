@@ -4,7 +4,8 @@ use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
 use crate::error::SceneError;
-use crate::place::{Origin, Place, line_at};
+use crate::place::{Origin, Place, column_at, line_at};
+use crate::unclosed::{self, Unclosed};
 
 /// Reads a document; what is wrong is named by key and place.
 pub(crate) fn read<T: DeserializeOwned>(text: &str, origin: &Origin) -> Result<T, SceneError> {
@@ -17,12 +18,28 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str, origin: &Origin) -> Result<T
 }
 
 fn syntax(text: &str, origin: &Origin, error: &toml::de::Error) -> SceneError {
+    let (at, what) = wrong(error, unclosed::in_document(text));
     let mut place = origin.place("");
-    place.line = error.span().map(|span| line_at(text, span.start));
-    let source = place.line.and_then(|line| text.lines().nth(line - 1)).unwrap_or_default();
+    place.line = Some(line_at(text, at));
+    let source = text.lines().nth(line_at(text, at) - 1).unwrap_or_default();
     let key = source.split('=').next().unwrap_or_default().trim().to_owned();
-    let message = format!("{}; allowed: TOML", error.message().trim_end());
-    SceneError::Syntax { place, key, message }
+    SceneError::Syntax { place, key, message: format!("column {}: {what}", column_at(text, at)) }
+}
+
+/// From which byte on a text is no TOML, and what is wrong there. A bracket that is never closed is
+/// told where it begins: the parser gets on to another line before it stumbles.
+fn wrong(error: &toml::de::Error, open: Option<Unclosed>) -> (usize, String) {
+    let at = error.span().map_or(0, |span| span.start);
+    match open.filter(|open| open.at <= at) {
+        Some(open) => {
+            let (name, closes) = (open.name(), open.closes());
+            let what = format!(
+                "the {name} that begins here is not closed; allowed: a `{closes}` at its end"
+            );
+            (open.at, what)
+        }
+        None => (at, format!("{}; allowed: TOML", error.message().trim_end())),
+    }
 }
 
 /// The key that is meant: a table's error names the field only in its message.
@@ -48,6 +65,7 @@ fn plain(message: &str) -> String {
         ("allowed: a string", "allowed: a text"),
         ("allowed: a sequence", "allowed: a list"),
         ("allowed: a map", "allowed: a table"),
+        ("allowed: internally tagged enum Packing", "allowed: a table with the key `from`"),
     ];
     let told = types.iter().fold(message, |m, (from, to)| m.replace(from, to));
     if told.starts_with("missing field") {
@@ -68,16 +86,26 @@ pub(crate) struct Set {
 }
 
 impl Set {
-    /// Reads `KEY=VALUE` of the command line; a value that is no TOML is a text.
+    /// Reads `KEY=VALUE` of the command line; a word that is no TOML is a text.
     pub(crate) fn parse(argument: &str) -> Result<Self, SceneError> {
         let place = Place::option("--set");
-        let Some((key, value)) = argument.split_once('=').filter(|(key, _)| !key.trim().is_empty())
-        else {
-            let (key, value) = (String::from("set"), format!("`{argument}`"));
-            return Err(SceneError::Value { place, key, value, allowed: "KEY=VALUE".into() });
-        };
+        let (key, value) = argument.split_once('=').unwrap_or((argument, ""));
         let (key, value) = (key.trim().to_owned(), value.trim());
-        let value = value.parse().unwrap_or_else(|_| Value::String(value.to_owned()));
+        for (part, missing) in [(key.as_str(), "key"), (value, "value")] {
+            if part.is_empty() {
+                return Err(SceneError::SetForm { argument: argument.to_owned(), missing });
+            }
+        }
+        let value = match value.parse() {
+            Ok(value) => value,
+            // What begins like this was meant to be TOML.
+            Err(error) if value.starts_with(['{', '[', '"', '\'']) => {
+                let (at, what) = wrong(&error, unclosed::in_value(value));
+                let message = format!("`{value}`, column {}: {what}", column_at(value, at));
+                return Err(SceneError::Syntax { place, key, message });
+            }
+            Err(_) => Value::String(value.to_owned()),
+        };
         Ok(Self { key, value, place })
     }
 }
@@ -206,8 +234,14 @@ mod tests {
     #[test]
     fn what_cannot_be_set_says_why() {
         for (argument, wanted) in [
-            ("a", "KEY=VALUE"),
-            ("=3", "KEY=VALUE"),
+            ("a", "`a` has no value; allowed: KEY=VALUE, such as liquid.viscosity=2e-3"),
+            ("a=", "`a=` has no value"),
+            ("=3", "`=3` has no key"),
+            ("t={b=1", "key `t`: `{b=1`, column 1: the inline table that begins here is not"),
+            ("t={b=[1, 2}", "column 4: the list that begins here is not closed"),
+            ("t=[1, 2", "key `t`: `[1, 2`, column 1: the list that begins here is not closed"),
+            ("t={b=1 c=2}", "key `t`: `{b=1 c=2}`, column 7: "),
+            ("t.b=\"x", "key `t.b`: `\"x`, column"),
             ("l[2].c=1", "below 2"),
             ("a.b=1", "single value"),
             ("t[0]=1", "allowed: b"),

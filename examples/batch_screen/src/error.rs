@@ -17,13 +17,19 @@ pub(crate) enum SceneError {
     Value { place: Place, key: String, value: String, allowed: String },
     #[error("{place}: key `{key}`: {source}")]
     At { place: Place, key: String, source: Box<SceneError> },
+    #[error(
+        "command line, --set: `{argument}` has no {missing}; allowed: KEY=VALUE, such as \
+         liquid.viscosity=2e-3"
+    )]
+    SetForm { argument: String, missing: &'static str },
     #[error("no built-in scene and no file is called `{name}`; built in: {known}")]
     Unknown { name: String, known: String },
     #[error("{}, line {line}: {message}", file.display())]
     Csv { file: PathBuf, line: u64, message: String },
     #[error(
         "{place}: key `time_step`: {time_step:.3e} s is above the limit {allowed:.3e} s that class \
-         {class} sets through the {term}; allowed: up to the limit, or --allow-unstable for studies"
+         {class} sets through the {term}; allowed: up to the limit; for studies of it, \
+         `run --allow-unstable` goes above"
     )]
     TimeStep { place: Place, time_step: f64, allowed: f64, class: String, term: &'static str },
     #[error(
@@ -54,6 +60,17 @@ pub(crate) enum RunError {
     Scene(#[from] SceneError),
     #[error("cannot write {}: {source}", path.display())]
     Write { path: PathBuf, source: std::io::Error },
+    #[error(
+        "{} exists already and is left as it is; allowed: a name that is free, or --overwrite",
+        path.display()
+    )]
+    Exists { path: PathBuf },
+    #[error(
+        "command line, --out: {0} holds a run already, which is left as it is; allowed: another --out, \
+         --overwrite to replace that run, or `batch_screen resume {0}` to go on with it",
+        folder.display()
+    )]
+    HoldsRun { folder: PathBuf },
     #[error("cannot go on with {}: {source}", path.display())]
     Table { path: PathBuf, source: std::io::Error },
     #[error(transparent)]
@@ -93,7 +110,7 @@ impl RunError {
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Settling { .. }) => 130,
-            Self::Scene(_) => 2,
+            Self::Scene(_) | Self::Exists { .. } | Self::HoldsRun { .. } => 2,
             Self::Guard { .. } | Self::Unstable { .. } => 3,
             Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
             _ => 1,

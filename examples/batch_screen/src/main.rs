@@ -31,6 +31,7 @@ mod spent;
 mod sweep;
 mod tables;
 mod tally;
+mod unclosed;
 mod vtk;
 
 use std::io::Write;

@@ -72,6 +72,12 @@ pub(crate) fn line_at(text: &str, offset: usize) -> usize {
     text.as_bytes().iter().take(offset).filter(|&&b| b == b'\n').count() + 1
 }
 
+/// Column of a byte of a text, in characters from 1.
+pub(crate) fn column_at(text: &str, offset: usize) -> usize {
+    let before = text.get(..offset).unwrap_or_default();
+    before.chars().rev().take_while(|&c| c != '\n').count() + 1
+}
+
 fn in_table(table: &DeTable<'_>, key: &str) -> Option<usize> {
     // A name may itself hold dots: the longest one that fits is meant.
     let fits = |name: &str| {
