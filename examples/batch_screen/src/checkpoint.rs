@@ -206,6 +206,16 @@ impl StoredWet {
 }
 
 impl Checkpoint {
+    /// Simulated time, s.
+    pub(crate) fn at(&self) -> f64 {
+        self.core.time(self.time_step)
+    }
+
+    /// Whether the run has come to its end: no step is left, and the last row is written.
+    pub(crate) fn is_finished(&self) -> bool {
+        self.rows > 0 && self.core.step >= (self.time / self.time_step).round() as u64
+    }
+
     /// Writes the checkpoint of a folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), CheckpointError> {
         store(self, &folder.join(NAME))

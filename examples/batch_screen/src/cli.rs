@@ -25,11 +25,14 @@ pub(crate) enum Command {
     },
     /// Writes the commented demo scene to a file, to start from.
     Sample {
-        /// The file, which must not exist; `scene.toml` or `sweep.toml` where it is left out.
+        /// The file; `scene.toml` or `sweep.toml` where it is left out.
         file: Option<PathBuf>,
         /// Writes a commented sweep instead.
         #[arg(long)]
         sweep: bool,
+        /// Replaces a file that exists.
+        #[arg(long)]
+        overwrite: bool,
     },
     /// Checks a scene and prints what follows from it, without running it.
     Check {
@@ -102,9 +105,13 @@ pub(crate) struct RunArgs {
     /// Time step, s, instead of the scene's.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) dt: Option<f64>,
-    /// Folder for the results; `out/NAME` where it is left out.
+    /// Folder for the results, which must not hold a run. `out/NAME` where it is left out, or if
+    /// that is taken the first free one of `out/NAME-2`, `out/NAME-3`, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Replaces the run that the folder holds; without --out that is `out/NAME`.
+    #[arg(long)]
+    pub(crate) overwrite: bool,
     /// Folder of settled beds, to be used again; `out/beds` where it is left out.
     #[arg(long, value_name = "DIR")]
     pub(crate) beds: Option<PathBuf>,
@@ -170,10 +177,10 @@ pub(crate) struct How {
     /// Wall time between checkpoints, s.
     #[arg(long, value_name = "S", default_value_t = 300.0, allow_negative_numbers = true)]
     pub(crate) checkpoint_every: f64,
-    /// Tells no progress.
+    /// Tells no progress, only the results at the end.
     #[arg(long)]
     pub(crate) quiet: bool,
-    /// Tells progress as a JSON object a line.
+    /// Tells progress and the end as a JSON object a line.
     #[arg(long, conflicts_with = "quiet")]
     pub(crate) json: bool,
 }

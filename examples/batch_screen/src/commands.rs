@@ -1,7 +1,7 @@
 //! What the commands do.
 
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,7 +18,7 @@ use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::say;
 use crate::scene::Scene;
-use crate::{auto, builtin, limits, needs, page, progress, report};
+use crate::{auto, builtin, folder, limits, needs, page, progress, report};
 
 /// More threads are taken for a mistake.
 const MOST_THREADS: usize = 1024;
@@ -39,15 +39,19 @@ pub(crate) fn show(name: &str) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Writes the demo scene, or a sweep, to a new file.
-pub(crate) fn sample(file: Option<PathBuf>, sweep: bool) -> Result<(), RunError> {
+/// Writes the demo scene, or a sweep, to a file.
+pub(crate) fn sample(file: Option<PathBuf>, sweep: bool, overwrite: bool) -> Result<(), RunError> {
     let (text, name, verb) = match sweep {
         true => (crate::sweep::SAMPLE, "sweep.toml", "sweep"),
         false => (builtin::find("demo").unwrap_or_default(), "scene.toml", "run"),
     };
     let path = file.unwrap_or_else(|| PathBuf::from(name));
-    let write = || fs::File::create_new(&path)?.write_all(text.as_bytes());
-    write().map_err(|source| RunError::Write { path: path.clone(), source })?;
+    let open = if overwrite { fs::File::create(&path) } else { fs::File::create_new(&path) };
+    let written = open.and_then(|mut file| file.write_all(text.as_bytes()));
+    written.map_err(|source| match source.kind() {
+        ErrorKind::AlreadyExists => RunError::Exists { path: path.clone() },
+        _ => RunError::Write { path: path.clone(), source },
+    })?;
     say::line(format_args!("wrote {0}; run it with: batch_screen {verb} {0}", path.display()));
     Ok(())
 }
@@ -95,7 +99,7 @@ fn load(name: &str, sets: &[Set]) -> Result<Loaded, SceneError> {
 /// The spheres where they are placed before they settle: enough to check a scene.
 fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
     let checkpoint_every = f64::INFINITY;
-    Source { base, beds: None, threads: 1, tell: false, stop, checkpoint_every }
+    Source { base, beds: None, threads: 1, style: Style::Silent, stop, checkpoint_every }
 }
 
 /// Checks a scene and says what follows from it.
@@ -141,7 +145,7 @@ pub(crate) fn needs(
     let kept = Path::new("out").join("beds");
     let beds = Some(beds.unwrap_or(&kept));
     let (threads, stop) = (count_threads(threads)?, AtomicBool::new(false));
-    let source = Source { beds, threads, tell: true, ..unsettled(&base, &stop) };
+    let source = Source { beds, threads, style: Style::People, ..unsettled(&base, &stop) };
     let decided = auto::decide(&scene, &source)?;
     auto::apply(&mut scene, &decided);
     needs::needs(scene, &source, time, tolerance, &|text| say::line(format_args!("{text}")))
@@ -149,7 +153,7 @@ pub(crate) fn needs(
 
 /// Runs a scene.
 pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
-    run_until(args, stop_flag())
+    run_until(args, Style::of(&args.how), stop_flag())
 }
 
 /// What `--set` says, one `KEY=VALUE` each.
@@ -174,9 +178,13 @@ fn asked(args: &RunArgs) -> Result<Loaded, SceneError> {
 }
 
 /// Runs a scene until its end, or until `stop` is set.
-pub(crate) fn run_until(args: &RunArgs, stop: Arc<AtomicBool>) -> Result<(), RunError> {
+pub(crate) fn run_until(
+    args: &RunArgs,
+    style: Style,
+    stop: Arc<AtomicBool>,
+) -> Result<(), RunError> {
     let Loaded { mut scene, text, base, name } = asked(args)?;
-    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    folder::refuse(args.out.as_deref(), args.overwrite)?;
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
     let threads = threads(&args.how)?;
     // Refused before the bed is settled, which can take minutes.
@@ -189,7 +197,7 @@ pub(crate) fn run_until(args: &RunArgs, stop: Arc<AtomicBool>) -> Result<(), Run
         base: &base,
         beds: Some(&beds),
         threads,
-        tell: !(args.how.quiet || args.how.json),
+        style,
         stop: &stop,
         checkpoint_every: args.how.checkpoint_every,
     };
@@ -199,6 +207,8 @@ pub(crate) fn run_until(args: &RunArgs, stop: Arc<AtomicBool>) -> Result<(), Run
     built.settings.allow_unstable = args.allow_unstable;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
         .map_err(|source| RunError::Write { path: base.clone(), source })?;
+    let usual = Path::new("out").join(&name);
+    let out = folder::of_run(args.out.as_deref(), &usual, args.overwrite)?;
     let job = Job {
         out,
         source: args.scene.clone(),
@@ -209,20 +219,27 @@ pub(crate) fn run_until(args: &RunArgs, stop: Arc<AtomicBool>) -> Result<(), Run
         stop,
         decided,
     };
-    finish(&scene, built, &job, None, &args.how)
+    let done = finish(&scene, built, &job, None, style);
+    if done.is_err() && args.out.is_none() {
+        // A run that could not begin leaves no empty folder; one with files in it stays.
+        let _ = fs::remove_dir(&job.out);
+    }
+    done
 }
 
 /// Goes on with a run from its last checkpoint.
 pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
-    resume_until(folder, how, stop_flag())
+    resume_until(folder, how, Style::of(how), stop_flag())
 }
 
 /// Goes on with a run until its end, or until `stop` is set.
 pub(crate) fn resume_until(
     folder: &Path,
     how: &How,
+    style: Style,
     stop: Arc<AtomicBool>,
 ) -> Result<(), RunError> {
+    crate::check::interval("--checkpoint-every", how.checkpoint_every)?;
     let checkpoint = Checkpoint::read(folder)?;
     let mut scene = Scene::parse(&checkpoint.scene, Path::new(&checkpoint.source))?;
     scene.time = checkpoint.time;
@@ -232,11 +249,17 @@ pub(crate) fn resume_until(
     let class = checkpoint.class.clone();
     let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
     built.settings.allow_unstable = checkpoint.allow_unstable;
-    if !(how.quiet || how.json) {
-        say::line(format_args!(
-            "going on from t = {:.4} s",
-            checkpoint.core.time(checkpoint.time_step)
-        ));
+    let finished = checkpoint.is_finished();
+    match style {
+        Style::People | Style::Quiet if finished => say::line(format_args!(
+            "{} has finished already, at t = {:.4} s: there was nothing to be done",
+            folder.display(),
+            checkpoint.at()
+        )),
+        Style::People => {
+            say::line(format_args!("going on from t = {:.4} s", checkpoint.at()));
+        }
+        _ => {}
     }
     let job = Job {
         out: folder.to_path_buf(),
@@ -248,7 +271,7 @@ pub(crate) fn resume_until(
         stop,
         decided: checkpoint.decided.clone(),
     };
-    finish(&scene, built, &job, Some(checkpoint), how)
+    finish(&scene, built, &job, Some(checkpoint), style)
 }
 
 fn finish(
@@ -256,22 +279,14 @@ fn finish(
     built: Built,
     job: &Job,
     from: Option<Checkpoint>,
-    how: &How,
+    style: Style,
 ) -> Result<(), RunError> {
-    crate::check::interval("--checkpoint-every", how.checkpoint_every)?;
-    let style = match (how.quiet, how.json) {
-        (true, _) => Style::Quiet,
-        (_, true) => Style::Json,
-        _ => Style::People,
-    };
-    let say = |text: &str| {
-        if style == Style::People {
-            say::line(format_args!("{text}"));
+    let begins = !from.as_ref().is_some_and(Checkpoint::is_finished);
+    if style == Style::People && begins {
+        say::line(format_args!("{}", report::header(scene, &built)));
+        if !job.decided.is_empty() {
+            say::line(format_args!("  decided      {}", auto::text(&job.decided)));
         }
-    };
-    say(&report::header(scene, &built));
-    if !job.decided.is_empty() {
-        say(&format!("  decided      {}", auto::text(&job.decided)));
     }
     let derived = built.derived.clone();
     let outcome = run::run(scene, built, job, from, &Progress::new(scene.time, style));
@@ -280,11 +295,17 @@ fn finish(
         let _ = page::report(&job.out);
     }
     let outcome = outcome?;
-    say(&report::table(scene, &derived, &outcome));
+    let results = matches!(style, Style::People | Style::Quiet);
+    if results {
+        say::line(format_args!("{}", report::table(scene, &derived, &outcome)));
+    }
     let page = page::report(&job.out)?;
-    say(&format!("results in {}, report in {}", job.out.display(), page.display()));
+    if results {
+        say::line(format_args!("results in {}, report in {}", job.out.display(), page.display()));
+    }
     if style == Style::Json {
-        progress::done(&outcome.tally, &job.out, &page);
+        let (retained, _) = report::retained_at_end(scene, &derived, &outcome);
+        progress::done(&outcome.tally, retained, &job.out, &page);
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ mod cli;
 mod commands;
 mod document;
 mod error;
+mod folder;
 mod frames;
 mod guard;
 mod limits;
@@ -50,7 +51,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::List => commands::list(),
         Command::Show { name } => commands::show(&name),
-        Command::Sample { file, sweep } => commands::sample(file, sweep),
+        Command::Sample { file, sweep, overwrite } => commands::sample(file, sweep, overwrite),
         Command::Check { scene, set } => commands::check(&scene, &set),
         Command::Needs { scene, tolerance, time, beds, threads } => {
             commands::needs(&scene, tolerance, time, beds.as_deref(), threads)

@@ -50,7 +50,7 @@ pub(crate) fn fly(scene: &Scene, source: &Source<'_>) -> Result<Pilot, RunError>
     };
     let derived = built.derived.clone();
     let begun = ProcessTime::now();
-    let outcome = run::run(scene, built, &job, None, &Progress::new(scene.time, Style::Quiet))?;
+    let outcome = run::run(scene, built, &job, None, &Progress::new(scene.time, Style::Silent))?;
     let seconds = begun.elapsed().as_secs_f64();
     let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
     let (retained, _) = retained(&outcome.tally, &outcome.start, &derived.masses, density);

@@ -84,10 +84,19 @@ fn drag(asked: Drag, implicit: bool) -> &'static str {
     }
 }
 
+/// Fractions retained, total and by class.
+pub(crate) fn retained_at_end(
+    scene: &Scene,
+    derived: &Derived,
+    outcome: &Outcome,
+) -> (f64, Vec<f64>) {
+    let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
+    retained(&outcome.tally, &outcome.start, &derived.masses, density)
+}
+
 /// The final table.
 pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> String {
-    let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
-    let (total, classes) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
+    let (total, classes) = retained_at_end(scene, derived, outcome);
     let tally = &outcome.tally;
     let mut text = format!("after {:.3} s\n", tally.time);
     text += "  class          start   above  collected  fraction retained\n";
@@ -153,8 +162,7 @@ pub(crate) fn summary(
     outcome: &Outcome,
     parts: &[String],
 ) -> Result<(), RunError> {
-    let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
-    let (total, classes) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
+    let (total, classes) = retained_at_end(scene, derived, outcome);
     let tally = &outcome.tally;
     let names: Vec<&str> = scene.classes.iter().map(|class| class.name.as_str()).collect();
     let by_class = |values: Vec<serde_json::Value>| -> serde_json::Map<_, _> {

@@ -117,8 +117,11 @@ impl Tables {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
         // Nothing of an earlier run in this folder may be taken for part of this one.
+        let whole = ["checkpoint.bin", "summary.json", "report.html"];
         let wet = ["liquid.csv", "liquid_shared.csv", "liquid_final.csv", "bridges.csv"];
-        for name in ["report.html"].into_iter().chain(wet) {
+        let series = ["particles", "bridges", "walls"].map(|name| format!("paraview/{name}.pvd"));
+        let names = whole.into_iter().chain(wet).chain(series.iter().map(String::as_str));
+        for name in names {
             let path = folder.join(name);
             match std::fs::remove_file(&path) {
                 Err(source) if source.kind() != std::io::ErrorKind::NotFound => {

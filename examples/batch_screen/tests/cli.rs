@@ -158,7 +158,12 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
     ("count = 16", "count = 16\nmass_g = 1", "", &["classes[0]", "one of the two"]),
     ("name = \"7 mm\"", "name = \"5 mm\"", "", &["classes[1].name"]),
     ("material = \"POM\"", "material = \"PON\"", "", &["classes[0].material", "PON", "steel"]),
-    ("capillary = \"tabulated\"", "capillary = \"lambda\"", "", &["liquid.capillary", "lambert"]),
+    (
+        "capillary = \"tabulated\"",
+        "capillary = \"lambda\"",
+        "",
+        &["liquid.capillary", "`lambda` is not allowed; allowed: rabinovich, lambert", ", auto"],
+    ),
     ("normal_drag = \"pitois\"", "normal_drag = \"x\"", "", &["liquid.normal_drag", "pitois"]),
     ("rupture = \"tabulated\"", "rupture = \"w\"", "", &["liquid.rupture", "mikami"]),
     ("transfer = \"exact\"", "transfer = \"thirds\"", "", &["transfer", "parabola"]),
@@ -180,11 +185,13 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
         "time_step = 5e-6",
         "time_step = 1e-3",
         "",
-        &["time_step", "class 5 mm", "contact springs and dashpots", "--allow-unstable"],
+        &["time_step", "class 5 mm", "contact springs and dashpots", "run --allow-unstable"],
     ),
     ("height_mm = 120", "height_mm = 13", "solid_fraction", &["screen.height_mm"]),
     ("title = ", "tittle = ", "", &["tittle", "`title`"]),
     ("[motion]", "[motions]", "", &["motions", "`motion`"]),
+    ("[packing]", "packing = {", "", &["column 11: the inline table", "not closed", "`}`"]),
+    ("[90, 45, 0]", "[90, 45, 0", "phase_deg = ", &["column 13: the list", "not closed", "`]`"]),
 ];
 
 #[test]
@@ -220,7 +227,14 @@ fn options_of_the_command_line_change_the_scene_and_are_named() {
         ("--set", "liquid.viscosity=-1", "command line, --set: key `liquid.viscosity`"),
         ("--set", "liquid.capilary=x", "command line, --set: key `liquid.capilary`"),
         ("--set", "classes[9].count=3", "below 3"),
-        ("--set", "liquid", "KEY=VALUE"),
+        ("--set", "liquid", "`liquid` has no value; allowed: KEY=VALUE, such as"),
+        (
+            "--set",
+            "packing={from=\"random\"",
+            "key `packing`: `{from=\"random\"`, column 1: the inline table",
+        ),
+        ("--set", "packing=3", "a table with the key `from`"),
+        ("--set", "time_step=1e-3", "`run --allow-unstable` goes above"),
         ("--time", "-1", "command line, --time: key `time`"),
         ("--dt", "1e-3", "command line, --dt: key `time_step`"),
     ] {
@@ -269,6 +283,7 @@ fn missing_and_broken_files() {
     fs::write(folder.path().join("bed.csv"), overlapping).unwrap();
     let said = text(&run(folder.path(), &["run", "s.toml"]).stderr);
     assert!(said.contains("overlaps") && said.contains("s.toml, line "), "{said}");
+    assert!(!folder.path().join("out/s").exists(), "a run that could not begin leaves nothing");
     fs::write(folder.path().join("broken.stl"), "solid x\nfacet nonsense").unwrap();
     let part = "\n[[parts]]\nname = \"frame\"\nstl = \"broken.stl\"\nmaterial = \"steel\"\n";
     let random = "[packing]\nfrom = \"random\"\nsolid_fraction = 0.2\nclearance_mm = 2\n\n";
@@ -335,10 +350,15 @@ fn killed(set: &str) -> serde_json::Value {
         assert!(page.status.success(), "{}", text(&page.stderr));
         args = vec!["resume", "cut"];
     }
-    // The second time there is nothing left to do.
-    for _ in 0..2 {
-        let last = run(folder.path(), &["resume", "cut"]);
+    let last = run(folder.path(), &["resume", "cut"]);
+    assert!(last.status.success(), "{}", text(&last.stderr));
+    // After that there is nothing left to do, which is said, however little else is.
+    for quiet in [&["resume", "cut"][..], &["resume", "cut", "--quiet"]] {
+        let last = run(folder.path(), quiet);
+        let said = text(&last.stdout);
         assert!(last.status.success(), "{}", text(&last.stderr));
+        assert!(said.starts_with("cut has finished already, at t = 0.0800 s"), "{said}");
+        assert!(said.contains("results in cut"), "{said}");
     }
     for table in TABLES {
         let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
@@ -360,6 +380,52 @@ fn killed(set: &str) -> serde_json::Value {
     }
     assert!(folder.path().join("cut/report.html").exists());
     summary(&folder.path().join("cut"))
+}
+
+/// Every file of a folder with its bytes.
+fn contents(folder: &std::path::Path) -> Vec<(std::ffi::OsString, Vec<u8>)> {
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let mut all: Vec<_> =
+        files.map(|file| (file.file_name(), fs::read(file.path()).unwrap())).collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn a_run_takes_the_place_of_another_only_when_asked_to() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let loose = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+    let again = |time: &str, options: &[&str]| {
+        let short = ["run", "small.toml", "--set", loose, "--time", time];
+        run(folder.path(), &[&short[..], options].concat())
+    };
+    let at = |name: &str| folder.path().join("out").join(name);
+    assert!(again("0.001", &[]).status.success());
+    let first = contents(&at("small"));
+    // Without --out each run has a folder of its own.
+    let second = again("0.002", &["--quiet"]);
+    assert!(
+        text(&second.stderr).contains("out/small is there already: this run goes to out/small-2")
+    );
+    assert!(text(&second.stdout).contains("results in out/small-2"), "{}", text(&second.stdout));
+    assert_eq!(summary(&at("small-2"))["time_s"], 0.002);
+    // With it, one that holds a run is refused, before anything is touched.
+    let refused = again("0.003", &["--out", "out/small"]);
+    let said = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    for way in ["holds a run already", "--overwrite", "resume out/small`", "another --out"] {
+        assert!(said.contains(way), "`{way}` is not in: {said}");
+    }
+    assert!(contents(&at("small")) == first);
+    // Where it is asked for, the earlier run goes, with what only it had.
+    let series = at("small").join("paraview/walls.pvd");
+    let vtk = ["--vtk", "0.001", "--overwrite", "--out", "out/small"];
+    assert!(again("0.003", &vtk).status.success() && series.exists());
+    assert_eq!(summary(&at("small"))["time_s"], 0.003);
+    assert!(again("0.004", &["--overwrite"]).status.success());
+    assert_eq!(summary(&at("small"))["time_s"], 0.004);
+    assert!(!series.exists() && !at("small-3").exists());
 }
 
 #[test]

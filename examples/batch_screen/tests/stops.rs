@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::{Child, Output, Stdio};
 
 use common::{program, run, small, summary, terminate, text};
+use serde_json::Value;
 
 const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
 
@@ -151,6 +152,37 @@ fn a_bed_that_is_not_at_rest_in_time_says_so() {
     assert!(text(&done.stderr).contains("still moves after 0.11 s"));
     let done = faulty(folder.path(), "settled", &["--set", "packing.settle_at_most=2"]);
     assert!(!text(&done.stderr).contains("still moves"), "{}", text(&done.stderr));
+}
+
+#[test]
+fn settling_is_told_and_quiet_hides_progress_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let go = |out: &str, options: &[&str]| {
+        // A bed of its own each time.
+        let done = faulty(folder.path(), out, &[&["--beds", out][..], options].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        (text(&done.stdout), text(&done.stderr))
+    };
+    let (_, said) = go("people", &[]);
+    let rows = said.lines().filter(|line| line.starts_with("settling: t = ")).count();
+    assert!(said.contains("settling: t = 0.000 of at most 2 s") && rows > 10, "{said}");
+    let (out, said) = go("json", &["--json"]);
+    let lines: Vec<Value> = out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(said, "", "what is for people stays away");
+    let settling: Vec<&Value> = lines.iter().take_while(|line| line["settling"] == true).collect();
+    assert_eq!(settling[0]["time_s"], 0.0);
+    let last = settling.last().unwrap();
+    let number = |key: &str| last[key].as_f64().unwrap();
+    assert!(number("motion") < number("at_rest_below") && number("time_s") > 0.1, "{last}");
+    assert_eq!(last["particles"], 24);
+    let done = lines.last().unwrap();
+    let retained = &summary(&folder.path().join("json"))["fraction_retained"]["total"];
+    assert_eq!((&done["done"], &done["fraction_retained"]), (&Value::Bool(true), retained));
+    let (out, said) = go("quiet", &["--quiet"]);
+    assert_eq!(said, "");
+    assert!(out.starts_with("after 0.050 s\n") && out.contains("fraction retained"), "{out}");
+    assert!(out.ends_with("results in quiet, report in quiet/report.html\n"), "{out}");
 }
 
 #[test]

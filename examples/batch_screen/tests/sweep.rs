@@ -217,6 +217,15 @@ fn the_sample_is_a_good_sweep() {
     let list = run(folder.path(), &["sweep", "mine.toml", "--emit", "list"]);
     assert!(list.status.success(), "{}", text(&list.stderr));
     assert_eq!(text(&list.stdout).lines().count(), 16);
-    let twice = run(folder.path(), &["sample", "--sweep", "mine.toml"]);
-    assert_eq!(twice.status.code(), Some(1));
+    // A file that is there is left alone, unless it is to be replaced.
+    fs::write(folder.path().join("mine.toml"), "changed").unwrap();
+    let sample = ["sample", "--sweep", "mine.toml"];
+    let twice = run(folder.path(), &sample);
+    let said = text(&twice.stderr);
+    assert_eq!(twice.status.code(), Some(2), "{said}");
+    assert!(said.contains("mine.toml exists already") && said.contains("--overwrite"), "{said}");
+    let now = || fs::read_to_string(folder.path().join("mine.toml")).unwrap();
+    assert_eq!(now(), "changed");
+    assert!(run(folder.path(), &[&sample[..], &["--overwrite"]].concat()).status.success());
+    assert!(now().contains("[grid]"));
 }

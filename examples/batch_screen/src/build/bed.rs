@@ -13,6 +13,7 @@ use super::apparatus;
 use super::settle::{Settling, settle};
 use crate::error::SceneError;
 use crate::packing::{self, Placed, Space};
+use crate::progress::Style;
 use crate::scene::{Packing, Scene};
 
 /// Where a bed comes from and where settled ones are kept.
@@ -23,8 +24,8 @@ pub(crate) struct Source<'a> {
     /// settle, which is enough to check a scene.
     pub(crate) beds: Option<&'a Path>,
     pub(crate) threads: usize,
-    /// Whether to say on stderr that a bed is being settled, which can take minutes.
-    pub(crate) tell: bool,
+    /// How to tell that a bed is being settled, which can take minutes.
+    pub(crate) style: Style,
     /// Set when settling is to stop; it goes on from there the next time.
     pub(crate) stop: &'a AtomicBool,
     /// Wall time between checkpoints of the settling, s.
@@ -82,7 +83,7 @@ pub(crate) fn place(
                 file: &half,
                 every: source.checkpoint_every,
                 stop: source.stop,
-                tell: source.tell,
+                style: source.style,
             };
             make_folder(&file)?;
             let settled = settle(scene, classes, &loose, &how)?;

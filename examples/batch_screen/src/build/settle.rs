@@ -16,6 +16,7 @@ use crate::checkpoint::{Core, load, store};
 use crate::error::SceneError;
 use crate::makeup::Makeup;
 use crate::packing::Placed;
+use crate::progress::{Progress, Settled, Style};
 use crate::say;
 use crate::scene::Scene;
 
@@ -39,7 +40,7 @@ pub(super) struct Settling<'a> {
     pub(super) every: f64,
     /// Set when it is to stop.
     pub(super) stop: &'a AtomicBool,
-    pub(super) tell: bool,
+    pub(super) style: Style,
 }
 
 /// A bed that has not settled yet.
@@ -62,11 +63,24 @@ pub(super) fn settle(
     let of = |one: &Placed| &classes[usize::from(one.class)];
     let unit: f64 = loose.iter().map(|one| of(one).mass() * gravity * of(one).radius()).sum();
     let mut bed = begin(scene, classes, loose, how)?;
+    let at = |bed: &Bed| Settled {
+        time: bed.time(),
+        at_most: how.at_most,
+        step: bed.step(),
+        spheres: loose.len(),
+        motion: motion(bed, classes) / unit,
+        at_rest: AT_REST,
+    };
+    let progress = Progress::new(how.at_most, how.style);
+    progress.begin(bed.step(), bed.time());
+    progress.settled(&at(&bed));
+    let row = |time: f64| (time / scene.output_interval) as u64;
+    let mut told = row(bed.time());
     let mut saved = Instant::now();
     while bed.time() < how.at_most {
         bed.advance(BATCH)?;
-        let still = || motion(&bed, classes) < AT_REST * unit;
-        if bed.step().is_multiple_of(LOOK) && bed.time() > 0.1 && still() {
+        let now = at(&bed);
+        if bed.step().is_multiple_of(LOOK) && now.time > 0.1 && now.motion < AT_REST {
             break;
         }
         let stop = how.stop.load(Ordering::Relaxed);
@@ -75,15 +89,23 @@ pub(super) fn settle(
             saved = Instant::now();
         }
         if stop {
+            progress.finish();
             return Err(SceneError::Settling { time: bed.time() });
         }
+        progress.settle(&now);
+        if row(now.time) > told {
+            told = row(now.time);
+            progress.settle_row(&now);
+        }
     }
-    let moving = motion(&bed, classes) / unit;
-    if how.tell && moving >= AT_REST {
+    progress.finish();
+    let last = at(&bed);
+    progress.settled(&last);
+    if last.motion >= AT_REST && how.style != Style::Silent {
         say::note(format_args!(
-            "the bed still moves after {:.2} s, the longest that packing.settle_at_most allows: \
-             its energy of motion is {moving:.1e} of that of a fall by one radius; it starts at rest",
-            bed.time()
+            "the bed still moves after {:.2} s, the longest that packing.settle_at_most allows: its \
+             energy of motion is {:.1e} of that of a fall by one radius; it starts at rest",
+            last.time, last.motion
         ));
     }
     let mut all: Vec<_> = bed.particles().iter().collect();
@@ -120,7 +142,7 @@ fn begin(
     if let Some(Half { core, .. }) = half {
         let snapshot = core.snapshot().map(|stored| contact.load_pair(stored).unwrap_or_default());
         let bed = Simulation::restore(particles, contact, walls, settings, snapshot)?;
-        if how.tell {
+        if how.style == Style::People {
             say::note(format_args!(
                 "going on with the settling of the bed from t = {:.4} s",
                 bed.time()
@@ -128,7 +150,7 @@ fn begin(
         }
         return Ok(bed);
     }
-    if how.tell {
+    if how.style == Style::People {
         say::note(format_args!(
             "settling {} spheres in the feed bin; kept for the next run",
             loose.len()
@@ -164,7 +186,7 @@ mod tests {
             file: &file,
             every: 1e9,
             stop: &stop,
-            tell: false,
+            style: Style::Silent,
         };
         for k in 1..=5 {
             let stopped = settle(&scene, &classes, &loose, &how).unwrap_err();

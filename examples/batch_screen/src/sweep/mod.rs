@@ -16,6 +16,7 @@ use crate::cli::{Emit, How, RunArgs, SweepArgs};
 use crate::commands;
 use crate::error::{RunError, SceneError};
 use crate::place::Place;
+use crate::progress::Style;
 use crate::say;
 
 /// A commented sweep file to start from.
@@ -77,7 +78,7 @@ impl Sweep<'_> {
         };
         match self.found(run)? {
             Found::Whole => Ok(()),
-            found => self.go(run, &found, &self.how),
+            found => self.go(run, &found, Style::of(&self.how)),
         }
     }
 
@@ -140,8 +141,7 @@ impl Sweep<'_> {
 
     /// One run; what goes wrong in it, whatever it is, ends no other.
     fn safely(&self, run: &Planned) -> Result<(), (u8, String)> {
-        let quiet = How { quiet: true, json: false, ..self.how.clone() };
-        let go = || self.go(run, &self.found(run)?, &quiet);
+        let go = || self.go(run, &self.found(run)?, Style::Silent);
         match catch_unwind(AssertUnwindSafe(go)) {
             Ok(done) => done.map_err(|error| (error.code(), error.to_string())),
             Err(_) => Err((101, "the run broke down; its message is on stderr".to_owned())),
@@ -201,10 +201,10 @@ impl Sweep<'_> {
         Ok(if done && page { Found::Whole } else { Found::Part })
     }
 
-    fn go(&self, run: &Planned, found: &Found, how: &How) -> Result<(), RunError> {
+    fn go(&self, run: &Planned, found: &Found, style: Style) -> Result<(), RunError> {
         let folder = self.out.join(&run.name);
         if matches!(found, Found::Part | Found::Whole) {
-            return commands::resume_until(&folder, how, Arc::clone(&self.stop));
+            return commands::resume_until(&folder, &self.how, style, Arc::clone(&self.stop));
         }
         let args = RunArgs {
             scene: self.plan.scene.clone(),
@@ -213,9 +213,11 @@ impl Sweep<'_> {
             beds: Some(self.beds.clone()),
             seed: Some(run.seed),
             set: run.sets.iter().map(|set| format!("{}={}", set.key, set.value)).collect(),
-            how: how.clone(),
+            how: self.how.clone(),
+            // What has no checkpoint has barely begun: it is begun anew.
+            overwrite: true,
             ..RunArgs::default()
         };
-        commands::run_until(&args, Arc::clone(&self.stop))
+        commands::run_until(&args, style, Arc::clone(&self.stop))
     }
 }
