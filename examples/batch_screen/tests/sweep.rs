@@ -201,8 +201,9 @@ fn bad_sweeps_say_where_and_what_is_allowed_before_anything_runs() {
 #[test]
 fn a_seed_that_a_row_sets_stands_in_the_column_of_seeds() {
     let folder = folder("scene = \"small.toml\"\ntime = 0.001\n[[rows]]\nname = \"a\"\nseed = 7\n");
-    let done = run(folder.path(), &["sweep", "s.toml", "--gather"]);
+    let done = run(folder.path(), &["sweep", "s.toml", "--gather", "--quiet"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(text(&done.stdout), "table in out/s/sweep.csv\n");
     let header = fs::read_to_string(folder.path().join("out/s/sweep.csv")).unwrap();
     let header: Vec<&str> = header.lines().next().unwrap().split(',').collect();
     assert_eq!(header.iter().filter(|name| **name == "seed").count(), 1, "{header:?}");

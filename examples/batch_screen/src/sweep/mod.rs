@@ -103,7 +103,9 @@ impl Sweep<'_> {
             self.tell(&format!("{} runs, {done} of them done", self.plan.runs.len()));
             sheet = self.side_by_side(&left, sheet, jobs)?;
         }
-        self.tell(&format!("table in {}", self.out.join("sweep.csv").display()));
+        if !self.how.json {
+            say::line(format_args!("table in {}", self.out.join("sweep.csv").display()));
+        }
         let (failed, waiting) = (sheet.count(Status::Failed), sheet.count(Status::Waiting));
         if self.stop.load(Ordering::Relaxed) {
             return Err(RunError::SweepStopped {
