@@ -42,10 +42,6 @@ impl<T: PairTerm> PairTerm for LonePairs<T> {
         self.0.settle(visits)
     }
 
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.0.finish()
-    }
-
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         self.0.arrange(each);
     }
@@ -98,10 +94,6 @@ impl<T: PairTerm> PairTerm for LoneResistances<T> {
 
     fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         self.0.settle(visits)
-    }
-
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.0.finish()
     }
 
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {

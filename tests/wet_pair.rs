@@ -70,10 +70,6 @@ impl<T: PairTerm> PairTerm for FormsOnTouch<T> {
         self.0.settle(visits)
     }
 
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.0.finish()
-    }
-
     fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
         self.0.stability(classes)
     }

@@ -71,11 +71,6 @@ impl<A: PairTerm, B: PairTerm> PairTerm for (A, B) {
         Ok(())
     }
 
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.0.finish()?;
-        self.1.finish()
-    }
-
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         self.0.arrange(&mut |see| each(&mut |column| see(&mut column.0)));
         self.1.arrange(&mut |see| each(&mut |column| see(&mut column.1)));
@@ -178,10 +173,6 @@ impl<T: PairTerm> PairTerm for Option<T> {
 
     fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         self.as_mut().map_or(Ok(()), |term| term.settle(visits))
-    }
-
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.as_mut().map_or(Ok(()), T::finish)
     }
 
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {

@@ -52,8 +52,8 @@ impl<C: Copy + Default> PairList<C> {
     ) {
         let (old, old_columns) =
             (std::mem::take(&mut self.active), std::mem::take(&mut self.columns));
-        self.active.reserve(old.len() + old.len() / 8);
-        self.columns.reserve(old.len() + old.len() / 8);
+        self.active.reserve(old.len() + old.len() / 16);
+        self.columns.reserve(old.len() + old.len() / 16);
         let mut carried = old.into_iter().zip(old_columns).peekable();
         for &entry in &self.outer {
             let at = key(entry, range);
@@ -77,8 +77,8 @@ impl<C: Copy + Default> PairList<C> {
             self.columns.push(c);
         }
         // The first time there was nothing to go by, and they grew by doubling.
-        self.active.shrink_to(self.active.len() / 4 * 5 + 8);
-        self.columns.shrink_to(self.columns.len() / 4 * 5 + 8);
+        self.active.shrink_to(self.active.len() / 16 * 17 + 8);
+        self.columns.shrink_to(self.columns.len() / 16 * 17 + 8);
     }
 }
 

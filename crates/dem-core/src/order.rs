@@ -3,12 +3,19 @@
 use crate::particles::Particles;
 
 /// Slots per chunk. A function of the number of particles alone: it decides the order of sums.
+///
+/// All chunks are of one size and even in number, so that two threads have the same to do.
 pub(crate) fn chunk_size(particles: usize) -> usize {
-    match particles {
+    let about = match particles {
         0..4_000 => 512,
         4_000..12_000 => 1024,
         _ => 2048,
+    };
+    if particles <= about {
+        return about;
     }
+    let halves = (particles + about) / (2 * about);
+    particles.div_ceil(2 * halves)
 }
 
 /// Slots in the order of a Morton curve over cells of the largest diameter.
@@ -39,7 +46,19 @@ fn interleave(v: u32) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::interleave;
+    use super::{chunk_size, interleave};
+
+    #[test]
+    fn chunks_are_alike_and_even_in_number() {
+        assert_eq!([chunk_size(0), chunk_size(1), chunk_size(512)], [512; 3]);
+        for particles in (513..5_000).chain((5_000..1_000_000).step_by(997)) {
+            let size = chunk_size(particles);
+            assert!((256..4096).contains(&size), "{particles}: {size}");
+            let last = particles - (particles - 1) / size * size;
+            assert!(2 * last > size, "{particles}: {last} of {size}");
+            assert_eq!(particles.div_ceil(size) % 2, 0, "{particles}");
+        }
+    }
 
     #[test]
     fn bits_lie_three_apart() {

@@ -4,26 +4,30 @@ use glam::DVec3;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use crate::chunk::{Chunk, List, Note, Roll};
+use crate::chunk::{Chunk, Roll};
 use crate::implicit::Inverse;
 use crate::integrate::{Bodies, Moved, Push, integrate};
 use crate::limit::Limit;
+use crate::order::chunk_size;
 use crate::particles::Particles;
 use crate::pass;
 use crate::view::View;
-use crate::{Boundary, PairTerm, Partner, Profile, SimulationError, Visit, wall_pass};
+use crate::{Boundary, PairTerm, Profile, SimulationError, wall_pass};
 
 mod deepest;
 mod implicit;
 mod leaving;
 mod neighbours;
 mod settings;
+mod settling;
 mod snapshot;
 mod survey;
+mod threads;
 
 pub use settings::Settings;
-use settings::{check, check_walls, threads};
+use settings::{check, check_walls};
 pub use snapshot::{RollState, Snapshot, WallMemory};
+use threads::{attended, each, parallel};
 
 /// Steps between looks for particles that left the scene or walls that were taken away.
 const LEAVE_EVERY: u64 = 64;
@@ -110,7 +114,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             settings,
             chunks: Vec::new(),
             rolls,
-            pool: threads(settings.threads)?,
+            pool: threads::pool(settings.threads)?,
             step: 0,
             lists,
             departures: Vec::new(),
@@ -127,10 +131,11 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// # Errors
     /// [`SimulationError`] if a term cannot settle or a particle's state is no longer finite.
     pub fn advance(&mut self, steps: u64) -> Result<(), SimulationError> {
-        match self.pool.take() {
+        let several = chunk_size(self.particles.len()) < self.particles.len();
+        match self.pool.take_if(|_| several) {
             None => self.steps(steps),
             Some(pool) => {
-                let done = pool.install(|| self.steps(steps));
+                let done = attended(&pool, || self.steps(steps));
                 self.pool = Some(pool);
                 done
             }
@@ -239,9 +244,14 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn view(&self) -> View<'_> {
+        View::new(&self.particles, &self.rolls, &self.inverse, self.times())
+    }
+
+    /// The time step and how far velocities lag behind positions, s.
+    fn times(&self) -> [f64; 2] {
         // At the start velocities and positions are of the same time.
         let lag = if self.step == 0 { 0.0 } else { 0.5 * self.settings.time_step };
-        View::new(&self.particles, &self.rolls, &self.inverse, [self.settings.time_step, lag])
+        [self.settings.time_step, lag]
     }
 
     fn read(&mut self) {
@@ -253,79 +263,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             wall_pass::read(&view, term, boundary, chunk);
         });
         self.chunks = chunks;
-    }
-
-    /// Gathers the pairs that want attention in the order of their keys, lets the term settle them
-    /// and writes their columns back, to both copies where a pair crosses a border.
-    fn settle(&mut self) -> Result<(), SimulationError> {
-        if self.chunks.iter().all(|chunk| chunk.notes.is_empty()) {
-            return Ok(());
-        }
-        let start = Instant::now();
-        let due = self.due();
-        let first = |k: usize| k == 0 || due[k - 1].bodies != due[k].bodies || !due[k].is_copy();
-        let count = (0..due.len()).filter(|&k| first(k)).count();
-        let mut visits: Vec<Visit<T::Column>> = Vec::with_capacity(count);
-        let mut owners = Vec::new();
-        for k in (0..due.len()).filter(|&k| first(k)) {
-            let owner =
-                if self.owns(&due[k]) { &due[k] } else { due.get(k + 1).unwrap_or(&due[k]) };
-            let chunk = &mut self.chunks[owner.chunk as usize];
-            let column = *chunk.column(owner.note.list, owner.note.index);
-            if T::IMPLICIT {
-                owners.push((owner.chunk, owner.note));
-            }
-            let encounter = self.chunks[owner.chunk as usize].encounter(&self.view(), &owner.note);
-            visits.push(Visit { encounter, column, ending: false });
-        }
-        self.lists.visited += visits.len();
-        let time = self.time();
-        let settled = self.term.settle(&mut visits);
-        settled.map_err(|source| SimulationError::Term { time, source })?;
-        let mut visits = visits.into_iter();
-        let mut current = None;
-        for (k, due) in due.iter().enumerate() {
-            if first(k) {
-                current = visits.next();
-            }
-            if let Some(visit) = current {
-                let chunk = &mut self.chunks[due.chunk as usize];
-                *chunk.column(due.note.list, due.note.index) = visit.column;
-            }
-        }
-        drop((due, visits));
-        let finished = self.term.finish();
-        finished.map_err(|source| SimulationError::Term { time, source })?;
-        if T::IMPLICIT {
-            self.meet_settled(&owners);
-        }
-        self.profile.settling += start.elapsed();
-        Ok(())
-    }
-
-    /// Whether this is the copy of a pair that counts: the one of its first particle's chunk.
-    fn owns(&self, due: &Due) -> bool {
-        let chunk = &self.chunks[due.chunk as usize];
-        let first = || chunk.across.active[due.note.index as usize][0];
-        due.note.list != List::Across || chunk.range.contains(&first())
-    }
-
-    /// All pairs that want attention in the order of their keys; a pair that stands in two lists is
-    /// there twice.
-    fn due(&mut self) -> Vec<Due> {
-        let mut all = Vec::with_capacity(self.chunks.iter().map(|chunk| chunk.notes.len()).sum());
-        for number in 0..self.chunks.len() {
-            // They are many only when a wet scene starts: nothing is kept for as many again.
-            let notes = std::mem::take(&mut self.chunks[number].notes);
-            let view = self.view();
-            all.extend(notes.into_iter().map(|note| {
-                let encounter = self.chunks[number].encounter(&view, &note);
-                let bodies = (encounter.first, encounter.second);
-                Due { bodies, chunk: number as u32, note }
-            }));
-        }
-        all.sort_unstable_by_key(|due| (due.bodies, due.chunk, due.note.list, due.note.index));
-        all
     }
 
     fn write(&mut self) -> Result<(), SimulationError> {
@@ -383,33 +320,5 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 .map(one)
                 .fold(Moved::default(), both)
         }
-    }
-}
-
-/// A pair that wants attention.
-struct Due {
-    bodies: (u32, Partner),
-    chunk: u32,
-    note: Note,
-}
-
-impl Due {
-    /// Whether this may be the second copy of a pair.
-    fn is_copy(&self) -> bool {
-        self.note.list == List::Across
-    }
-}
-
-/// Whether it pays to hand chunks to threads.
-fn parallel(chunks: usize, threads: usize) -> bool {
-    chunks > 1 && threads > 1 && rayon::current_num_threads() > 1
-}
-
-/// Runs over all chunks, in parallel inside a pool of more than one thread.
-fn each<C: Send>(chunks: &mut [Chunk<C>], one: impl Fn(&mut Chunk<C>) + Sync + Send) {
-    if chunks.len() > 1 && rayon::current_thread_index().is_some() {
-        chunks.par_iter_mut().for_each(one);
-    } else {
-        chunks.iter_mut().for_each(one);
     }
 }

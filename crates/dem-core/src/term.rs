@@ -76,15 +76,6 @@ pub trait PairTerm: Send + Sync {
         let _ = each;
     }
 
-    /// Does what [`PairTerm::settle`] has left to be done once the visits are written back, so that
-    /// not both take memory at the same time. A term that wraps another hands this on.
-    ///
-    /// # Errors
-    /// As [`PairTerm::settle`].
-    fn finish(&mut self) -> Result<(), TermError> {
-        Ok(())
-    }
-
     /// Moves to the particle's nearest touch with a wall part what belongs to the part as a whole.
     fn hand_on(&self, from: &mut Self::Column, to: &mut Self::Column) {
         let _ = (from, to);

@@ -140,6 +140,17 @@ impl Ledger {
         }
     }
 
+    /// Makes room for so many more bridges.
+    pub fn reserve(&mut self, bridges: usize) {
+        self.bridges.reserve(bridges.saturating_sub(self.free.len()));
+    }
+
+    /// How many bridge accounts there are, open or closed.
+    #[must_use]
+    pub fn bridges(&self) -> usize {
+        self.bridges.len()
+    }
+
     /// An empty account for a new bridge.
     pub fn open_bridge(&mut self) -> u32 {
         self.free.pop().unwrap_or_else(|| {

@@ -49,16 +49,6 @@ struct Seated {
     seat: u32,
 }
 
-/// A bridge that has formed, between whom and at what gap, m.
-#[derive(Debug, Clone, Copy)]
-struct Forming {
-    account: u32,
-    seat: u32,
-    first: u32,
-    second: Partner,
-    gap: f64,
-}
-
 /// Liquid bridges: they form where films touch, pull, drag, break and hand liquid on.
 ///
 /// All formations and ruptures of a step are computed from the state at its start and booked
@@ -80,7 +70,6 @@ where
     live: Vec<Option<Seated>>,
     shelf: Shelf<C::Curve, N::Curve, S::Curve>,
     /// Bridges that have formed and are not yet folded.
-    forming: Vec<Forming>,
     thickness: Vec<f64>,
     wall_thickness: Vec<f64>,
     thickest: f64,
@@ -136,7 +125,6 @@ where
             thickest: 0.0,
             live: Vec::new(),
             shelf: Shelf::default(),
-            forming: Vec::new(),
             counts: Counts::default(),
             capillary_loss: 0.0,
             drags: true,

@@ -85,10 +85,6 @@ impl<T: PairTerm> PairTerm for Implicit<T> {
         self.0.settle(&mut Part::<_, First<Impulse>>::of(visits))
     }
 
-    fn finish(&mut self) -> Result<(), TermError> {
-        self.0.finish()
-    }
-
     fn arrange(&mut self, each: &mut EachColumn<'_, Self::Column>) {
         self.0.arrange(&mut |see| each(&mut |column| see(&mut column.0)));
     }

@@ -104,7 +104,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
         visits.sort_by_key(|v| (v.encounter.first, v.encounter.second));
         let time = self.time();
-        let settled = self.term.settle(&mut visits).and_then(|()| self.term.finish());
+        let settled = self.term.settle(&mut visits);
         settled.map_err(|source| SimulationError::Term { time, source })
     }
 }

@@ -1,7 +1,6 @@
 //! What a simulation is told, and whether it can be done.
 
 use glam::DVec3;
-use rayon::ThreadPool;
 
 use crate::limit::Limit;
 use crate::particles::Particles;
@@ -43,19 +42,6 @@ impl Settings {
             allow_unstable: false,
         }
     }
-}
-
-/// A pool of threads; none where one is enough.
-pub(super) fn threads(threads: usize) -> Result<Option<ThreadPool>, SimulationError> {
-    if threads <= 1 {
-        return Ok(None);
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let failed = |e: rayon::ThreadPoolBuildError| SimulationError::Threads {
-        threads,
-        reason: e.to_string(),
-    };
-    pool.map(Some).map_err(failed)
 }
 
 /// Refuses walls of a material that the term does not know.

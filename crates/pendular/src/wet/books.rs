@@ -9,7 +9,7 @@ use pendular_transfer::{RuptureLaw, TransferError, film};
 
 use super::bodies::parameter;
 use super::shelf::Far;
-use super::{Forming, LiveBridge, Seated, Wet, WetError};
+use super::{LiveBridge, Seated, Wet, WetError};
 use crate::{Account, Move, PairLaws};
 
 /// Rupture distance and curves of a bridge by such laws.
@@ -107,13 +107,17 @@ where
     }
 
     /// Whether there is enough in an account for a bridge.
-    pub(super) fn forms(&self, account: u32, encounter: &Encounter) -> bool {
+    pub(super) fn has_enough(&self, account: u32, encounter: &Encounter) -> bool {
         self.ledger.volume(Account::Bridge(account)) >= self.smallest(encounter)
     }
 
     /// Folds a bridge, now that its volume is known, and puts what acts in it on the shelf.
-    pub(super) fn fold(&mut self, forming: &Forming) -> Result<(), WetError> {
-        let &Forming { account, seat, first, second, .. } = forming;
+    pub(super) fn fold(
+        &mut self,
+        account: u32,
+        seat: u32,
+        &Encounter { first, second, .. }: &Encounter,
+    ) -> Result<(), WetError> {
         let volume = self.ledger.volume(Account::Bridge(account));
         let refuse = |source| WetError::Law { first, second, volume, source };
         let bridge = self.bridge(first, second, volume).map_err(refuse)?;

@@ -23,6 +23,21 @@ impl Hold {
         Self { bridge, seat }
     }
 
+    /// A bridge that is to form; it has no seat yet.
+    pub(super) fn forming(bridge: u32) -> Self {
+        Self { bridge, seat: DRY }
+    }
+
+    /// The account of a bridge that is to form.
+    pub(super) fn forms(&self) -> Option<u32> {
+        self.bridge().filter(|_| self.seat == DRY)
+    }
+
+    /// The account of a bridge that has its seat and is to go.
+    pub(super) fn ruptures(&self) -> Option<u32> {
+        self.bridge().filter(|_| self.seat != DRY)
+    }
+
     /// Number of the pair's bridge account, if it has a bridge.
     #[must_use]
     #[inline(always)]
@@ -97,9 +112,9 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         }
     }
 
-    /// Makes room on all seats that were given out.
-    pub(super) fn reserve(&mut self) {
-        let more = (self.seats as usize).saturating_sub(self.far.len());
+    /// Makes room for so many more bridges.
+    pub(super) fn reserve(&mut self, bridges: usize) {
+        let more = bridges.saturating_sub(self.free.len());
         self.contact.reserve(more);
         self.far.reserve(more);
     }

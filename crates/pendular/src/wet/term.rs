@@ -9,10 +9,10 @@ use pendular_lubrication::{NormalCurve, NormalDrag, TangentialCurve, TangentialD
 use pendular_pair::{Bridge, Mate, OutOfRange};
 use pendular_transfer::formation;
 
+use super::Wet;
 use super::act::Pulls;
 use super::shelf::Hold;
-use super::{Forming, Wet};
-use crate::Move;
+use crate::{Account, Move};
 
 impl<C, N, S> PairTerm for Wet<C, N, S>
 where
@@ -75,23 +75,24 @@ where
     }
 
     fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
-        // Nothing is left of the last time if the caller keeps to the order of calls.
-        self.finish()?;
+        // Very many bridges may form in the first step: besides their moves nothing is kept of them
+        // but what stays, an account in their column.
         let mut moves = Vec::with_capacity(2 * visits.count());
-        let mut forming: Vec<[u32; 3]> = Vec::with_capacity(visits.count());
+        self.ledger.reserve(visits.count());
         for k in 0..visits.count() {
             let encounter = visits.encounter(k);
             if let Some(bridge) = visits.column(k).bridge() {
                 moves.extend(self.rupture(&encounter, bridge));
             } else if !visits.ends(k) {
                 let bridge = self.ledger.open_bridge();
-                forming.push([k as u32, bridge, moves.len() as u32]);
+                *visits.column(k) = Hold::forming(bridge);
                 moves.extend(self.claims(&encounter, bridge)?);
             }
         }
         self.ledger.book(&mut moves)?;
         for k in 0..visits.count() {
-            let Some(bridge) = std::mem::take(visits.column(k)).bridge() else { continue };
+            let Some(bridge) = visits.column(k).ruptures() else { continue };
+            *visits.column(k) = Hold::default();
             self.lose(bridge, visits.encounter(k).gap, 1.0);
             if let Some(seated) = self.live[bridge as usize].take() {
                 self.shelf.leave(seated.seat);
@@ -99,44 +100,13 @@ where
             self.ledger.close_bridge(bridge);
             self.counts.ruptured += 1;
         }
-        for &[k, bridge, given] in &forming {
-            if !self.forms(bridge, &visits.encounter(k as usize)) {
-                let given = &moves[given as usize..][..2];
-                let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
-                self.ledger.book(&mut [back(&given[0]), back(&given[1])])?;
-                self.ledger.close_bridge(bridge);
-            }
-        }
+        self.give_back_too_little(visits, &moves)?;
         for step in &moves {
             self.measure(step.from)?;
             self.measure(step.to)?;
         }
-        // Very many bridges may form in the first step: what is done with goes first.
         drop(moves);
-        self.forming.reserve_exact(forming.len());
-        for [k, bridge, _] in forming {
-            let Encounter { first, second, gap, .. } = visits.encounter(k as usize);
-            if self.forms(bridge, &visits.encounter(k as usize)) {
-                let seat = self.shelf.seat();
-                *visits.column(k as usize) = Hold::new(bridge, seat);
-                self.forming.push(Forming { account: bridge, seat, first, second, gap });
-                self.counts.formed += 1;
-            }
-        }
-        Ok(())
-    }
-
-    fn finish(&mut self) -> Result<(), TermError> {
-        let forming = std::mem::take(&mut self.forming);
-        self.shelf.reserve();
-        let accounts = forming.iter().fold(self.live.len(), |n, f| n.max(f.account as usize + 1));
-        self.live.reserve(accounts - self.live.len());
-        self.live.resize(accounts, None);
-        for bridge in forming {
-            self.fold(&bridge)?;
-            self.lose(bridge.account, bridge.gap, -1.0);
-        }
-        Ok(())
+        self.seat_new(visits)
     }
 
     fn arrange(&mut self, each: &mut EachColumn<'_, Hold>) {
@@ -200,6 +170,47 @@ where
     N: NormalDrag,
     S: TangentialDrag,
 {
+    /// Gives the liquid back that is too little for a bridge.
+    fn give_back_too_little(
+        &mut self,
+        visits: &mut impl Visits<Hold>,
+        moves: &[Move],
+    ) -> Result<(), TermError> {
+        let given = moves.chunks_exact(2).filter_map(|both| match both[0].to {
+            Account::Bridge(bridge) => Some((bridge, both)),
+            _ => None,
+        });
+        let mut given = given.peekable();
+        for k in 0..visits.count() {
+            let Some(bridge) = visits.column(k).forms() else { continue };
+            let Some((_, both)) = given.next_if(|(to, _)| *to == bridge) else { continue };
+            if !self.has_enough(bridge, &visits.encounter(k)) {
+                let back = |given: &Move| Move { from: given.to, to: given.from, ..*given };
+                self.ledger.book(&mut [back(&both[0]), back(&both[1])])?;
+                self.ledger.close_bridge(bridge);
+                *visits.column(k) = Hold::default();
+            }
+        }
+        Ok(())
+    }
+
+    /// Folds the bridges that form.
+    fn seat_new(&mut self, visits: &mut impl Visits<Hold>) -> Result<(), TermError> {
+        let forming = (0..visits.count()).filter(|&k| visits.column(k).forms().is_some()).count();
+        self.live.resize(self.ledger.bridges(), None);
+        self.shelf.reserve(forming);
+        for k in 0..visits.count() {
+            let Some(bridge) = visits.column(k).forms() else { continue };
+            let encounter = visits.encounter(k);
+            let seat = self.shelf.seat();
+            *visits.column(k) = Hold::new(bridge, seat);
+            self.fold(bridge, seat, &encounter)?;
+            self.lose(bridge, encounter.gap, -1.0);
+            self.counts.formed += 1;
+        }
+        Ok(())
+    }
+
     /// What acts where some of the pairs have no bridge or a far one, or forces at contact that say
     /// nothing of overlap.
     #[cold]
