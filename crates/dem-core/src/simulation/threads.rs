@@ -79,7 +79,8 @@ mod tests {
         assert_eq!(sum, 49_995_000);
         let failed = attended(&pool, || Err::<(), _>("no more"));
         assert_eq!(failed, Err("no more"));
-        let panicked = std::panic::catch_unwind(|| attended(&pool, || panic!("no more")));
+        let panics = std::panic::AssertUnwindSafe(|| attended(&pool, || panic!("no more")));
+        let panicked = std::panic::catch_unwind(panics);
         assert!(panicked.is_err());
         assert_eq!(attended(&pool, || 1), 1);
     }
