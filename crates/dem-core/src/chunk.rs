@@ -119,9 +119,8 @@ impl<C: Copy + Default> Chunk<C> {
         }
     }
 
+    /// Forgets the last step; its sums are zero since they were used.
     pub(crate) fn clear(&mut self) {
-        self.sums.fill(Sum::default());
-        self.rolls.fill(Roll::default());
         self.notes.clear();
         self.links.clear();
         self.links_across.clear();

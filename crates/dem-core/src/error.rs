@@ -108,6 +108,12 @@ pub enum SimulationError {
         /// Simulated time, s.
         time: f64,
     },
+    /// A step has failed before.
+    #[error("a step after t = {time:.9} s has failed: what it has left cannot be gone on from")]
+    Failed {
+        /// Simulated time, s.
+        time: f64,
+    },
     /// A term could not settle.
     #[error("at t = {time:.9} s: {source}")]
     Term {

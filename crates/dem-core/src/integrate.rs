@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::chunk::{Chunk, Roll};
+use crate::chunk::{Chunk, Roll, Sum};
 use crate::particles::{Class, Place, Row, Velocity};
 
 /// What moving a chunk found out.
@@ -47,9 +47,10 @@ pub(crate) struct Bodies<'a> {
 /// Leapfrog: v(n+1/2) = v(n−1/2) + `kick` F/m, x(n+1) = x(n) + `drift` v(n+1/2).
 ///
 /// The kick is half a step at the start, where the velocities are those of the positions' time;
-/// `pushes` are its effect by class, `fall` what gravity adds to a velocity.
-pub(crate) fn integrate<C: Sync>(
-    chunk: &Chunk<C>,
+/// `pushes` are its effect by class, `fall` what gravity adds to a velocity. The sums are zero again
+/// afterwards: it costs least while they are at hand.
+pub(crate) fn integrate<C: Send>(
+    chunk: &mut Chunk<C>,
     bodies: Bodies<'_>,
     pushes: &[Push],
     fall: DVec3,
@@ -60,18 +61,25 @@ pub(crate) fn integrate<C: Sync>(
 }
 
 #[inline(always)]
-fn step<C>(chunk: &Chunk<C>, bodies: Bodies<'_>, pushes: &[Push], fall: Row, drift: f64) -> Moved {
+fn step<C>(
+    chunk: &mut Chunk<C>,
+    bodies: Bodies<'_>,
+    pushes: &[Push],
+    fall: Row,
+    drift: f64,
+) -> Moved {
     let mut moved = Moved::default();
     let Bodies { places, velocities, rolls, class } = bodies;
-    let columns = places.iter_mut().zip(velocities).zip(class).zip(&chunk.sums);
+    let columns = places.iter_mut().zip(velocities).zip(class).zip(&mut chunk.sums);
     for (slot, (((place, velocity), class), sum)) in columns.enumerate() {
         let push = pushes[usize::from(*class)];
         let turn = push.inertia;
         let (v, w) = (&mut velocity.v.0, &mut velocity.w.0);
-        let (force, torque) = (&sum.force.0, &sum.torque.0);
+        let Sum { force: Row(force), torque: Row(torque) } = std::mem::take(sum);
         *v = each(|k| v[k] + (push.mass * force[k] + fall.0[k]));
-        if let (Some(roll), Some(brake)) = (rolls.get_mut(slot), chunk.rolls.get(slot)) {
-            *roll = Roll { spin: turn * sum.torque.vector(), contacts: brake.contacts.max(1.0) };
+        if let (Some(roll), Some(brake)) = (rolls.get_mut(slot), chunk.rolls.get_mut(slot)) {
+            let brake = std::mem::take(brake);
+            *roll = Roll { spin: turn * Row(torque).vector(), contacts: brake.contacts.max(1.0) };
             let braked = Row::new(turn * brake.spin).0;
             *w = each(|k| w[k] + (turn * torque[k] + braked[k]));
         } else {

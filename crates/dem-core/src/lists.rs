@@ -25,6 +25,7 @@ impl<C> Default for PairList<C> {
 
 /// What orders a list, and so the sums: the chunk's own slot, then the other; inside a chunk the
 /// lower slot first.
+#[inline]
 pub(crate) fn key(entry: Entry, range: &Range<u32>) -> u64 {
     let [a, b] = entry;
     let (mine, other) = match (range.contains(&a), range.contains(&b)) {
@@ -35,10 +36,12 @@ pub(crate) fn key(entry: Entry, range: &Range<u32>) -> u64 {
     u64::from(mine) << 32 | u64::from(other)
 }
 
-/// Gap of the two particles of an entry, m.
-pub(crate) fn gap(places: &[Place], [a, b]: Entry) -> f64 {
+/// Whether the two particles of an entry have a gap of at most `reach` m.
+#[inline]
+fn within(places: &[Place], [a, b]: Entry, reach: f64) -> bool {
     let (p, q) = (&places[a as usize], &places[b as usize]);
-    (q.x - p.x).length() - (p.r + q.r)
+    let sum = p.r + q.r + reach;
+    (q.x - p.x).length_squared() <= sum * sum
 }
 
 impl<C: Copy + Default> PairList<C> {
@@ -55,19 +58,23 @@ impl<C: Copy + Default> PairList<C> {
         self.active.reserve(old.len() + old.len() / 16);
         self.columns.reserve(old.len() + old.len() / 16);
         let mut carried = old.into_iter().zip(old_columns).peekable();
+        let mut next = carried.peek().map(|(entry, _)| key(*entry, range));
         for &entry in &self.outer {
-            let at = key(entry, range);
             let mut column = None;
-            while let Some((earlier, c)) = carried.next_if(|(e, _)| key(*e, range) <= at) {
-                if earlier == entry {
-                    column = Some(c);
-                } else if live(&c) {
-                    self.active.push(earlier);
-                    self.columns.push(c);
+            if next.is_some() {
+                let at = key(entry, range);
+                while next.is_some_and(|next| next <= at) {
+                    let Some((earlier, c)) = carried.next() else { break };
+                    next = carried.peek().map(|(entry, _)| key(*entry, range));
+                    if earlier == entry {
+                        column = Some(c);
+                    } else if live(&c) {
+                        self.active.push(earlier);
+                        self.columns.push(c);
+                    }
                 }
             }
-            let keep = column.as_ref().is_some_and(&live) || gap(places, entry) <= reach;
-            if keep {
+            if column.as_ref().is_some_and(&live) || within(places, entry, reach) {
                 self.active.push(entry);
                 self.columns.push(column.unwrap_or_default());
             }
@@ -96,16 +103,13 @@ pub(crate) fn find<C>(
     let (places, id) = (&particles.places, &particles.id);
     let mut near: Vec<u32> = Vec::with_capacity(64);
     for i in range.clone() {
-        let p = places[i as usize];
         near.clear();
-        grids.around(&p, |j| {
+        grids.around(&places[i as usize], |j| {
             let ours = range.contains(&j);
             if ours && j <= i {
                 return;
             }
-            let q = &places[j as usize];
-            let sum = p.r + q.r + reach;
-            if (q.x - p.x).length_squared() <= sum * sum {
+            if within(places, [i, j], reach) {
                 near.push(j);
             }
         });

@@ -4,7 +4,7 @@ use crate::particles::Particles;
 
 /// Slots per chunk. A function of the number of particles alone: it decides the order of sums.
 ///
-/// All chunks are of one size and even in number, so that two threads have the same to do.
+/// All chunks are of one size and, up to some millions of particles, even in number, so that two threads have the same to do.
 pub(crate) fn chunk_size(particles: usize) -> usize {
     let about = match particles {
         0..4_000 => 512,

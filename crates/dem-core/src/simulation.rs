@@ -1,3 +1,4 @@
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
@@ -20,6 +21,7 @@ mod leaving;
 mod neighbours;
 mod settings;
 mod settling;
+mod skins;
 mod snapshot;
 mod survey;
 mod threads;
@@ -51,7 +53,9 @@ pub struct Simulation<T: PairTerm, B> {
     settings: Settings,
     chunks: Vec<Chunk<T::Column>>,
     rolls: Vec<Roll>,
-    pool: Option<ThreadPool>,
+    pool: Option<Arc<ThreadPool>>,
+    /// A step has failed: what is left of it cannot be gone on from.
+    failed: bool,
     step: u64,
     lists: neighbours::State,
     departures: Vec<Departure>,
@@ -115,6 +119,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             chunks: Vec::new(),
             rolls,
             pool: threads::pool(settings.threads)?,
+            failed: false,
             step: 0,
             lists,
             departures: Vec::new(),
@@ -129,17 +134,20 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// Goes on for `steps` time steps.
     ///
     /// # Errors
-    /// [`SimulationError`] if a term cannot settle or a particle's state is no longer finite.
+    /// [`SimulationError`] if a term cannot settle or a particle's state is no longer finite, and
+    /// [`SimulationError::Failed`] ever after.
     pub fn advance(&mut self, steps: u64) -> Result<(), SimulationError> {
-        let several = chunk_size(self.particles.len()) < self.particles.len();
-        match self.pool.take_if(|_| several) {
-            None => self.steps(steps),
-            Some(pool) => {
-                let done = attended(&pool, || self.steps(steps));
-                self.pool = Some(pool);
-                done
-            }
+        if self.failed {
+            return Err(SimulationError::Failed { time: self.time() });
         }
+        let particles = self.particles.len();
+        let chunks = particles.div_ceil(chunk_size(particles));
+        let done = match self.pool.clone().filter(|_| chunks > 1) {
+            None => self.steps(steps),
+            Some(pool) => attended(&pool, chunks - 1, || self.steps(steps)),
+        };
+        self.failed = done.is_err();
+        done
     }
 
     fn steps(&mut self, steps: u64) -> Result<(), SimulationError> {
@@ -257,7 +265,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn read(&mut self) {
         let mut chunks = std::mem::take(&mut self.chunks);
         let (view, term, boundary) = (self.view(), &self.term, &self.boundary);
-        each(&mut chunks, |chunk| {
+        each(&mut chunks, self.settings.threads, |chunk| {
             chunk.clear();
             pass::read(&view, term, chunk);
             wall_pass::read(&view, term, boundary, chunk);
@@ -293,7 +301,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let Particles { places, velocities, class, .. } = &mut self.particles;
         let pushes: Vec<_> = self.lists.classes.iter().map(|c| Push::new(c, kick)).collect();
         let fall = kick * self.settings.gravity;
-        let (chunks, rolls) = (&self.chunks, &mut self.rolls);
+        let (chunks, rolls) = (&mut self.chunks, &mut self.rolls);
         let one = |((((chunk, places), velocities), class), rolls): (_, &mut [Roll])| {
             let bodies = Bodies { places, velocities, rolls, class };
             integrate(chunk, bodies, &pushes, fall, drift)
@@ -303,7 +311,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let both = |a: Moved, b: Moved| a.with(b);
         if parallel(chunks.len(), self.settings.threads) {
             chunks
-                .par_iter()
+                .par_iter_mut()
                 .zip(places.par_chunks_mut(size))
                 .zip(velocities.par_chunks_mut(size))
                 .zip(class.par_chunks(size))
@@ -312,7 +320,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
                 .reduce(Moved::default, both)
         } else {
             chunks
-                .iter()
+                .iter_mut()
                 .zip(places.chunks_mut(size))
                 .zip(velocities.chunks_mut(size))
                 .zip(class.chunks(size))

@@ -16,7 +16,7 @@ pub trait Visits<C> {
     /// Whether pair `k` ends after this visit: a body leaves the scene, or a wall part is taken away.
     fn ends(&self, k: usize) -> bool;
 
-    /// The term's column of pair `k`; what is left here is written back.
+    /// The term's column of pair `k`, to be changed.
     fn column(&mut self, k: usize) -> &mut C;
 }
 
@@ -81,7 +81,7 @@ impl<A, B, V: Visits<(A, B)>> Visits<B> for Part<'_, V, Second<A>> {
 pub struct Visit<C> {
     /// The pair as it was read.
     pub encounter: Encounter,
-    /// The term's column of the pair; what is left here is written back.
+    /// The term's column of the pair.
     pub column: C,
     /// The pair ends after this visit: a body leaves the scene, or a wall part is taken away.
     pub ending: bool,

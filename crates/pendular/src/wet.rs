@@ -69,7 +69,6 @@ where
     ledger: Ledger,
     live: Vec<Option<Seated>>,
     shelf: Shelf<C::Curve, N::Curve, S::Curve>,
-    /// Bridges that have formed and are not yet folded.
     thickness: Vec<f64>,
     wall_thickness: Vec<f64>,
     thickest: f64,

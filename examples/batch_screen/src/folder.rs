@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::RunError;
 use crate::say;
+use crate::vtk::Series;
 
 /// Files of a run; the last of them is there as soon as it has begun.
 const OF_A_RUN: [&str; 3] = ["checkpoint.bin", "summary.json", "retained.csv"];
@@ -61,6 +62,30 @@ fn free(wanted: &Path) -> Result<PathBuf, RunError> {
         folder = wanted.with_file_name(name);
     }
     Ok(folder)
+}
+
+/// Takes away what could be taken for part of the run that is to begin in a folder.
+pub(crate) fn clear(folder: &Path) -> Result<(), RunError> {
+    let whole = ["checkpoint.bin", "summary.json", "report.html"];
+    let wet = ["liquid.csv", "liquid_shared.csv", "liquid_final.csv", "bridges.csv"];
+    whole.iter().chain(&wet).try_for_each(|name| remove(folder.join(name)))?;
+    let frames = folder.join("paraview");
+    if frames.is_dir() {
+        // What is no series of ours has no frames that we know of; its lists go all the same.
+        let _ = Series::resume(&frames, f64::NEG_INFINITY);
+        let lists = ["particles", "bridges", "walls"].map(|name| format!("{name}.pvd"));
+        lists.iter().try_for_each(|name| remove(frames.join(name)))?;
+    }
+    Ok(())
+}
+
+fn remove(path: PathBuf) -> Result<(), RunError> {
+    match fs::remove_file(&path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(RunError::Write { path, source })
+        }
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

@@ -116,20 +116,7 @@ impl Tables {
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder)
             .map_err(|source| RunError::Write { path: folder.to_path_buf(), source })?;
-        // Nothing of an earlier run in this folder may be taken for part of this one.
-        let whole = ["checkpoint.bin", "summary.json", "report.html"];
-        let wet = ["liquid.csv", "liquid_shared.csv", "liquid_final.csv", "bridges.csv"];
-        let series = ["particles", "bridges", "walls"].map(|name| format!("paraview/{name}.pvd"));
-        let names = whole.into_iter().chain(wet).chain(series.iter().map(String::as_str));
-        for name in names {
-            let path = folder.join(name);
-            match std::fs::remove_file(&path) {
-                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(RunError::Write { path, source });
-                }
-                _ => {}
-            }
-        }
+        crate::folder::clear(folder)?;
         let create = |name: &str, cells: Vec<String>| Table::create(folder, name, &cells);
         let mut tables = Self::open(scene, derived, parts, create)?;
         tables.start = masses(first, &tables.masses, tables.density);

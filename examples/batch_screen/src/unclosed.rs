@@ -39,7 +39,8 @@ fn find(text: &str, tables: bool) -> Option<Unclosed> {
     while let Some(&byte) = bytes.get(at) {
         match byte {
             b'#' => at = line_end(bytes, at),
-            b'"' | b'\'' => at = string_end(bytes, at),
+            // In a text that does not end there is no telling what is a bracket.
+            b'"' | b'\'' => at = string_end(bytes, at)?,
             // The name of a table, which ends with its line.
             b'[' if tables && open.is_empty() && begins_line(bytes, at) => at = line_end(bytes, at),
             b'{' | b'[' => open.push(Unclosed { at, bracket: byte }),
@@ -66,23 +67,23 @@ fn begins_line(bytes: &[u8], at: usize) -> bool {
     before.into_iter().all(u8::is_ascii_whitespace)
 }
 
-/// Where the string that begins at `from` ends; one of a single line ends with it at the latest.
-fn string_end(bytes: &[u8], from: usize) -> usize {
+/// Where the text that begins at `from` ends; one of a single line ends on it.
+fn string_end(bytes: &[u8], from: usize) -> Option<usize> {
     let quote = bytes[from];
     let long = [quote; 3];
     let lines = bytes[from..].starts_with(&long);
     let mut at = from + if lines { 3 } else { 1 };
     while let Some(&byte) = bytes.get(at) {
         match byte {
-            b'\\' if quote == b'"' => at += 1,
-            b'\n' if !lines => return at,
-            _ if lines && bytes[at..].starts_with(&long) => return at + 2,
-            _ if !lines && byte == quote => return at,
+            b'\n' if !lines => return None,
+            b'\\' if quote == b'"' && bytes.get(at + 1) != Some(&b'\n') => at += 1,
+            _ if lines && bytes[at..].starts_with(&long) => return Some(at + 2),
+            _ if !lines && byte == quote => return Some(at),
             _ => {}
         }
         at += 1;
     }
-    at
+    None
 }
 
 #[cfg(test)]
@@ -118,6 +119,8 @@ mod tests {
             "[t\na = 1\n",
             "a = }\n",
             "a = \"[\nb = 1\n",
+            "a = [\"x, 2]\nb = 1\n",
+            "a = [\"x\\\nb = 1]\n",
             "a = '{' # [\n",
         ] {
             assert_eq!(in_document(text), None, "{text}");

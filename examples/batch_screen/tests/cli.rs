@@ -422,10 +422,12 @@ fn a_run_takes_the_place_of_another_only_when_asked_to() {
     let series = at("small").join("paraview/walls.pvd");
     let vtk = ["--vtk", "0.001", "--overwrite", "--out", "out/small"];
     assert!(again("0.003", &vtk).status.success() && series.exists());
+    assert!(fs::read_dir(at("small").join("paraview")).unwrap().count() > 6);
     assert_eq!(summary(&at("small"))["time_s"], 0.003);
     assert!(again("0.004", &["--overwrite"]).status.success());
     assert_eq!(summary(&at("small"))["time_s"], 0.004);
     assert!(!series.exists() && !at("small-3").exists());
+    assert_eq!(fs::read_dir(at("small").join("paraview")).unwrap().count(), 0);
 }
 
 #[test]

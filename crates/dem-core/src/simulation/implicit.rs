@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Simulation, parallel};
+use super::{Simulation, each, parallel};
 use crate::chunk::{Chunk, List, Note, WallPair};
 use crate::implicit::{Change, Impulse, Inverse, Links, Loose, Passes, Task, work};
 use crate::integrate::{Moved, drift};
@@ -185,9 +185,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn close_across(&mut self, [duration, _]: [f64; 2]) {
-        let Self { chunks, particles, term, .. } = self;
+        let Self { chunks, particles, term, settings, .. } = self;
         let (term, velocities) = (&*term, &particles.velocities);
-        super::each(chunks, |chunk| {
+        each(chunks, settings.threads, |chunk| {
             let Chunk { links_across, across, .. } = chunk;
             links_across.close_loose(velocities, 0, duration, |loose, impulse| {
                 remember(term, &mut across.columns[loose.index as usize], impulse);

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+use super::skins::Skins;
 use super::{Settings, Simulation, each};
 use crate::chunk::{Chunk, Memories, WallPair};
 use crate::grid::Grids;
@@ -24,8 +25,7 @@ pub(super) struct State {
     pub(super) chunk_size: usize,
     pub(super) classes: Vec<Class>,
     pub(super) overlap: f64,
-    skin: f64,
-    inner_skin: f64,
+    skins: Skins,
     outer: f64,
     inner: f64,
     walls: f64,
@@ -39,15 +39,12 @@ pub(super) struct State {
 impl State {
     pub(super) fn new(particles: &Particles, settings: &Settings) -> Self {
         let classes = particles.classes().to_vec();
-        let smallest = classes.iter().fold(f64::INFINITY, |r, class| r.min(class.radius()));
-        let smallest = if smallest.is_finite() { smallest } else { 1.0 };
-        let skin = settings.skin.unwrap_or(0.2 * smallest);
+        let skins = Skins::new(&classes, settings);
         Self {
             chunk_size: 1,
             classes,
             overlap: 0.0,
-            skin,
-            inner_skin: settings.inner_skin.unwrap_or(0.02 * smallest).min(skin),
+            skins,
             outer: f64::INFINITY,
             inner: f64::INFINITY,
             walls: f64::INFINITY,
@@ -71,6 +68,7 @@ impl State {
         self.outer += 2.0 * particle;
         self.inner += 2.0 * particle;
         self.walls += particle + wall;
+        self.skins.pace = 2.0 * particle;
     }
 }
 
@@ -80,9 +78,9 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let reach = self.term.reach();
         let lists = &self.lists;
         let grown = (reach - lists.reach).max(0.0);
-        let stale = lists.outer + grown > lists.skin;
-        let prune = stale || lists.inner + grown > lists.inner_skin;
-        let wall_stale = lists.walls + (reach - lists.wall_reach).max(0.0) > lists.skin;
+        let stale = lists.outer + grown > lists.skins.outer;
+        let prune = stale || lists.inner + grown > lists.skins.inner;
+        let wall_stale = lists.walls + (reach - lists.wall_reach).max(0.0) > lists.skins.walls;
         let untidy = ARRANGE * lists.visited >= self.particles.len();
         if !(stale || prune || wall_stale || untidy) {
             return;
@@ -130,7 +128,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let centre = 0.5 * (low + high);
         let most = moved().fold(0.0_f64, |most, d| most.max((d - centre).length_squared()));
         let bound = 2.0 * most.sqrt();
-        let good = bound + grown < 0.75 * lists.skin;
+        let good = bound + grown < 0.75 * lists.skins.outer;
         if good {
             lists.outer = bound;
         }
@@ -138,10 +136,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn build(&mut self, reach: f64) {
-        let range = reach + self.lists.skin;
+        let pairs = self.count_pairs();
+        self.lists.skins.choose_outer(self.particles.len(), pairs);
+        let range = reach + self.lists.skins.outer;
         let grids = Grids::new(&self.particles.places, range);
         let particles = &self.particles;
-        each(&mut self.chunks, |chunk| {
+        each(&mut self.chunks, self.settings.threads, |chunk| {
             let (inside, across) = (&mut chunk.inside, &mut chunk.across);
             lists::find(particles, &grids, &chunk.range, range, inside, across);
         });
@@ -151,10 +151,20 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         self.profile.builds += 1;
     }
 
+    /// How many pairs are in the outer lists and in the active ones.
+    fn count_pairs(&self) -> [usize; 2] {
+        self.chunks.iter().fold([0; 2], |[outer, active], Chunk { inside, across, .. }| {
+            let more = inside.outer.len() + across.outer.len();
+            [outer + more, active + inside.active.len() + across.active.len()]
+        })
+    }
+
     fn prune(&mut self, reach: f64) {
-        let range = reach + self.lists.inner_skin;
+        let pairs = self.count_pairs();
+        self.lists.skins.choose_inner(pairs);
+        let range = reach + self.lists.skins.inner;
         let (places, term) = (&self.particles.places, &self.term);
-        each(&mut self.chunks, |chunk| {
+        each(&mut self.chunks, self.settings.threads, |chunk| {
             let live = |column: &T::Column| term.live(column);
             chunk.inside.prune(places, &chunk.range, range, live);
             chunk.across.prune(places, &chunk.range, range, live);
@@ -164,9 +174,10 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn find_walls(&mut self, reach: f64) {
-        let range = reach + self.lists.skin;
+        self.lists.skins.walls = self.lists.skins.outer;
+        let range = reach + self.lists.skins.walls;
         let (places, term, boundary) = (&self.particles.places, &self.term, &self.boundary);
-        each(&mut self.chunks, |chunk| {
+        each(&mut self.chunks, self.settings.threads, |chunk| {
             wall_pass::find(term, boundary, places, range, chunk);
         });
         (self.lists.walls, self.lists.wall_reach) = (0.0, reach);

@@ -24,7 +24,7 @@ fn run(change: impl FnOnce(&mut Settings)) -> Vec<u64> {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    // 2197 spheres are five chunks.
+    // 2197 spheres are four chunks.
     let one = run(|_| ());
     for threads in [2, 3, 8] {
         assert!(run(|s| s.threads = threads) == one, "{threads} threads");

@@ -76,7 +76,7 @@ where
 
     fn settle(&mut self, visits: &mut impl Visits<Self::Column>) -> Result<(), TermError> {
         // Very many bridges may form in the first step: besides their moves nothing is kept of them
-        // but what stays, an account in their column.
+        // but their place among the visits and what stays, an account in their column.
         let mut moves = Vec::with_capacity(2 * visits.count());
         self.ledger.reserve(visits.count());
         for k in 0..visits.count() {
@@ -203,8 +203,8 @@ where
             let Some(bridge) = visits.column(k).forms() else { continue };
             let encounter = visits.encounter(k);
             let seat = self.shelf.seat();
-            *visits.column(k) = Hold::new(bridge, seat);
             self.fold(bridge, seat, &encounter)?;
+            *visits.column(k) = Hold::new(bridge, seat);
             self.lose(bridge, encounter.gap, -1.0);
             self.counts.formed += 1;
         }
