@@ -67,3 +67,49 @@ impl Skins {
         (more > 0.0 && wider > 0.0 && self.pace > 0.0).then_some(more / wider)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1000 spheres of 1 mm with 2500 pairs at contact and 8000 for each millimetre of gap.
+    fn pairs(skin: f64) -> usize {
+        (2500.0 + 8e6 * skin) as usize
+    }
+
+    #[test]
+    fn the_skins_cost_least() {
+        let classes = [Class::new(1e-3, 2500.0, 0).unwrap()];
+        let pace = 3e-6;
+        let cost = |outer: f64, inner: f64| {
+            let prune = PRUNE * pairs(outer) as f64 / inner;
+            PRUNE * BUILD * 1000.0 * pace / outer + prune * pace + 8e6 * inner
+        };
+        let mut skins = Skins { pace, ..Skins::new(&classes, &Settings::new(1e-6)) };
+        for _ in 0..20 {
+            let found = [pairs(skins.outer), pairs(skins.inner)];
+            skins.choose_outer(1000, found);
+            skins.choose_inner([pairs(skins.outer), pairs(skins.inner)]);
+        }
+        let (outer, inner) = (skins.outer, skins.inner);
+        let least = cost(outer, inner);
+        for factor in [0.8, 1.25] {
+            assert!(cost(factor * outer, inner) > least, "{outer} {inner}");
+            assert!(cost(outer, factor * inner) > least, "{outer} {inner}");
+        }
+    }
+
+    #[test]
+    fn what_is_given_stays_and_rest_changes_nothing() {
+        let classes = [Class::new(1e-3, 2500.0, 0).unwrap()];
+        let given = Settings { skin: Some(3e-4), inner_skin: Some(1e-5), ..Settings::new(1e-6) };
+        let mut fixed = Skins { pace: 1e-6, ..Skins::new(&classes, &given) };
+        let mut still = Skins::new(&classes, &Settings::new(1e-6));
+        for skins in [&mut fixed, &mut still] {
+            skins.choose_outer(1000, [5000, 2500]);
+            skins.choose_inner([5000, 2500]);
+        }
+        assert_eq!([fixed.outer, fixed.inner], [3e-4, 1e-5]);
+        assert_eq!([still.outer, still.inner], [2e-4, 2e-5]);
+    }
+}

@@ -123,6 +123,8 @@ fn an_unstable_run_stops_instead_of_going_on_with_nan() {
     let mut simulation = Simulation::new(particles, term, Tray::still(None), settings).unwrap();
     let error = simulation.advance(100).unwrap_err();
     assert!(matches!(error, SimulationError::NotFinite { .. }), "{error}");
+    let again = simulation.advance(1).unwrap_err();
+    assert!(matches!(again, SimulationError::Failed { .. }), "{again}");
 }
 
 #[test]
