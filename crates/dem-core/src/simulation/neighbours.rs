@@ -174,7 +174,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     fn find_walls(&mut self, reach: f64) {
-        self.lists.skins.walls = self.lists.skins.outer;
         let range = reach + self.lists.skins.walls;
         let (places, term, boundary) = (&self.particles.places, &self.term, &self.boundary);
         each(&mut self.chunks, self.settings.threads, |chunk| {

@@ -4,9 +4,9 @@ use super::Settings;
 use crate::Class;
 
 /// Cost of finding a particle's pairs, over that of looking at one pair while pruning.
-const BUILD: f64 = 90.0;
+const BUILD: f64 = 110.0;
 /// Cost of looking at a pair while pruning, over that of an active pair in a step.
-const PRUNE: f64 = 1.3;
+const PRUNE: f64 = 0.25;
 
 /// The skins of the lists, m.
 ///
@@ -24,7 +24,7 @@ const PRUNE: f64 = 1.3;
 pub(super) struct Skins {
     pub(super) outer: f64,
     pub(super) inner: f64,
-    /// The one that the lists of walls were made with.
+    /// That of the lists of walls, which few particles are in.
     pub(super) walls: f64,
     /// How far gaps may have changed in the last step.
     pub(super) pace: f64,
