@@ -71,6 +71,12 @@ pub(crate) enum RunError {
         folder.display()
     )]
     HoldsRun { folder: PathBuf },
+    #[error(
+        "{} is no scene of an earlier run and is left as it is: a run writes a file of that name; \
+         allowed: another --out",
+        path.display()
+    )]
+    SceneOfUser { path: PathBuf },
     #[error("cannot go on with {}: {source}", path.display())]
     Table { path: PathBuf, source: std::io::Error },
     #[error(transparent)]
@@ -110,7 +116,8 @@ impl RunError {
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Settling { .. }) => 130,
-            Self::Scene(_) | Self::Exists { .. } | Self::HoldsRun { .. } => 2,
+            Self::Scene(_) | Self::Exists { .. } => 2,
+            Self::HoldsRun { .. } | Self::SceneOfUser { .. } => 2,
             Self::Guard { .. } | Self::Unstable { .. } => 3,
             Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
             _ => 1,

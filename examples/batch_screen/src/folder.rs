@@ -4,6 +4,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::effective;
 use crate::error::RunError;
 use crate::say;
 use crate::vtk::Series;
@@ -13,12 +14,12 @@ const OF_A_RUN: [&str; 3] = ["checkpoint.bin", "summary.json", "retained.csv"];
 
 /// Refuses a folder that was asked for and holds a run.
 pub(crate) fn refuse(asked: Option<&Path>, overwrite: bool) -> Result<(), RunError> {
-    match asked {
-        Some(folder) if !overwrite && OF_A_RUN.iter().any(|name| folder.join(name).exists()) => {
-            Err(RunError::HoldsRun { folder: folder.to_path_buf() })
-        }
-        _ => Ok(()),
+    let Some(folder) = asked else { return Ok(()) };
+    let holds_run = OF_A_RUN.iter().any(|name| folder.join(name).exists());
+    if holds_run && !overwrite {
+        return Err(RunError::HoldsRun { folder: folder.to_path_buf() });
     }
+    effective::refuse(folder, holds_run)
 }
 
 /// The folder of a run that is about to begin: the one that was asked for, or else the usual one, or
@@ -32,7 +33,10 @@ pub(crate) fn of_run(
     refuse(asked, overwrite)?;
     match asked {
         Some(folder) => Ok(folder.to_path_buf()),
-        None if overwrite => Ok(usual.to_path_buf()),
+        None if overwrite => {
+            refuse(Some(usual), overwrite)?;
+            Ok(usual.to_path_buf())
+        }
         None => {
             let folder = free(usual)?;
             if folder != usual {

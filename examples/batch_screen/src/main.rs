@@ -10,6 +10,7 @@ mod checkpoint;
 mod cli;
 mod commands;
 mod document;
+mod effective;
 mod error;
 mod folder;
 mod frames;

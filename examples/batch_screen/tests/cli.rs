@@ -252,6 +252,58 @@ fn options_of_the_command_line_change_the_scene_and_are_named() {
 }
 
 #[test]
+fn the_scene_as_it_was_run_is_kept_and_runs_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let scene = small().replace("capillary = \"tabulated\"", "capillary = \"auto\"");
+    fs::create_dir(at("in")).unwrap();
+    fs::write(at("in/small.toml"), scene).unwrap();
+    let given = ["--time", "0.02", "--dt", "4e-6", "--seed", "4", "--set", "liquid.viscosity=2e-3"];
+    let first = run(folder.path(), &[&["run", "in/small.toml", "--out", "a"], &given[..]].concat());
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let kept = fs::read_to_string(at("a/scene.toml")).unwrap();
+    let values: toml::Table = kept.parse().unwrap();
+    assert_eq!(values["time"].as_float(), Some(0.02));
+    assert_eq!(values["time_step"].as_float(), Some(4e-6));
+    assert_eq!(values["seed"].as_integer(), Some(4));
+    let liquid = &values["liquid"];
+    assert_eq!(liquid["viscosity"].as_float(), Some(2e-3));
+    assert_ne!(liquid["capillary"].as_str(), Some("auto"));
+    assert_eq!(liquid["drag"].as_str(), Some("explicit"));
+    let again = run(folder.path(), &["run", "a/scene.toml", "--out", "b"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    let bytes = |run: &str, name: &str| fs::read(at(run).join(name)).unwrap();
+    TABLES.iter().for_each(|name| assert!(bytes("a", name) == bytes("b", name), "{name}"));
+    let table = |run: &str| text(&bytes(run, "scene.toml")).parse::<toml::Table>().unwrap();
+    assert_eq!(table("a"), table("b"));
+    // The page and a comparison have it too.
+    assert!(text(&bytes("a", "report.html")).contains("[\"liquid.viscosity\",0.002]"));
+    // Whoever keeps a scene of that name in a folder does not lose it.
+    fs::write(at("in/scene.toml"), small()).unwrap();
+    for overwrite in [&[][..], &["--overwrite"]] {
+        let done = run(folder.path(), &[&["run", "demo", "--out", "in"], overwrite].concat());
+        assert_eq!(done.status.code(), Some(2));
+        assert!(text(&done.stderr).contains("in/scene.toml is no scene of an earlier run"));
+    }
+    assert_eq!(fs::read_to_string(at("in/scene.toml")).unwrap(), small());
+}
+
+#[test]
+fn files_of_a_scene_are_found_again_from_the_folder_of_its_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("in")).unwrap();
+    let bed = "id,x,y,z,radius,density\n0,0,0,0.02,0.0025,1358\n";
+    fs::write(folder.path().join("in/bed.csv"), bed).unwrap();
+    let scene = small().replace("\"packing.floor_height_mm\", ", "");
+    fs::write(folder.path().join("in/s.toml"), scene).unwrap();
+    let from = ["--set", "packing={from=\"file\", path=\"bed.csv\"}", "--time", "0.001"];
+    let first = run(folder.path(), &[&["run", "in/s.toml", "--out", "a"], &from[..]].concat());
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let again = run(folder.path(), &["run", "a/scene.toml", "--out", "b"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+}
+
+#[test]
 fn missing_and_broken_files() {
     let folder = tempfile::tempdir().unwrap();
     let unknown = run(folder.path(), &["run", "nothing"]);

@@ -55,6 +55,7 @@ fn whole() -> TempDir {
         "division,place,volume_m3,in_bridges_m3,share\nfines,5 mm,1e-6,0,0.5\nall,all,2e-6,2e-7,1\n",
     );
     put("energy.csv", "time_s,kinetic_J,potential_J\n0,0.1,0.2\n1,0.05,0.1\n");
+    put("scene.toml", "time = 1.0\n[[classes]]\ncount = 80\n[motion]\namplitude_mm = [0, 0, 1.5]\n");
     put(
         "passages.csv",
         "time_s,id,class,diameter_m,film_m3,x_m,y_m\n0.25,3,5 mm,0.005,1e-9,0.01,-0.02\n",
@@ -117,6 +118,8 @@ fn a_page_holds_what_the_folder_holds() {
     assert_eq!(column(&tables["energy"], "potential_J"), [0.2, 0.1]);
     assert_eq!(column(&tables["passages"], "class"), [0.0]);
     assert_eq!(run["liquid_final"][0], json!(["fines", "5 mm", 1e-6, 0.0, 0.5]));
+    let scene = json!([["classes[0].count", 80], ["motion.amplitude_mm", [0, 0, 1.5]], ["time", 1.0]]);
+    assert_eq!(run["scene"], scene);
     let frames = &run["replay"]["frames"];
     assert_eq!(
         *frames,
@@ -144,6 +147,7 @@ fn absent_files_leave_their_section_out() {
     assert_eq!(run["tables"].as_object().unwrap().keys().collect::<Vec<_>>(), ["retained"]);
     assert!(run["replay"].is_null());
     assert_eq!(run["liquid_final"], json!([]));
+    assert!(run["scene"].is_null(), "of an older run");
     // Without the summary's classes diameters come from the passages, or are not known.
     let folder = whole();
     put(folder.path(), "summary.json", "{}");
@@ -178,13 +182,17 @@ fn a_killed_run_shows_its_whole_rows() {
     let folder = whole();
     put(folder.path(), "retained.csv", &format!("{RETAINED}1.500000,0.5,0.1,1,2"));
     put(folder.path(), "energy.csv", "time_s,kinetic_J\n");
+    put(folder.path(), "scene.toml", "time = ");
     let (_, data) = report(&folder);
     let run = &data["runs"][0];
     assert_eq!(column(&run["tables"]["retained"], "time_s"), [0.0, 0.5, 1.0]);
     assert_eq!(run["tables"]["energy"]["rows"], 0);
     assert_eq!(
         run["notes"],
-        json!(["The last line of retained.csv is not whole and was left out."])
+        json!([
+            "scene.toml is no TOML and was left out.",
+            "The last line of retained.csv is not whole and was left out."
+        ])
     );
     // Cut at any byte after the header, it still makes a page.
     let head = RETAINED.find('\n').unwrap() + 1;

@@ -50,21 +50,34 @@ function resultsTable(runs, names) {
   return grid(['run', ...columns.map(([name]) => name)], runs.map((run) => [run.name, ...columns.map(([, get]) => get(run))]));
 }
 
-// What differs between the runs, of what was assumed and what follows from their scenes.
-function differences(runs) {
-  const all = runs.map(({ summary }) => flat({
-    scene: summary.scene, title: summary.title, assumed: summary.assumptions, derived: summary.derived, budget: undefined,
-  }));
+// A row for each key whose values differ between the runs; nothing where none does.
+function differing(runs, all, named) {
   const keys = [...new Set(all.flatMap(Object.keys))].filter((key) => new Set(all.map((o) => JSON.stringify(o[key]))).size > 1);
   if (!keys.length) return null;
-  const label = (key) => {
-    const { label: words, unit } = named(key);
-    return [words, unit];
-  };
   return grid(['', ...runs.map((run) => run.name)], keys.map((key) => {
-    const [words, unit] = label(key);
-    return [words, ...all.map((o) => told(o[key], unit))];
+    const { label, unit } = named(key);
+    return [label, ...all.map((o) => told(o[key], unit))];
   }));
+}
+
+// What differs between the runs: keys of their scenes, and what follows from these.
+function differences(runs) {
+  const without = runs.filter((run) => !run.scene).map((run) => run.name);
+  const parts = [];
+  if (without.length) {
+    const all = runs.map(({ summary }) => flat({
+      scene: summary.scene, title: summary.title, assumed: summary.assumptions, derived: summary.derived,
+    }));
+    parts.push(el('p', { class: 'note' }, `Of the assumptions and of what follows from the scenes only: there is no scene.toml of ${without.join(', ')}.`),
+      differing(runs, all, named) || el('p', {}, 'Nothing of these.'));
+  } else {
+    const keys = differing(runs, runs.map((run) => Object.fromEntries(run.scene)), (key) => ({ label: key, unit: '' }));
+    parts.push(el('p', { class: 'note' }, 'Keys of the scenes as they were run; – where a scene leaves a key to its default.'),
+      keys || el('p', {}, 'The scenes are the same, key by key.'));
+    const follows = differing(runs, runs.map(({ summary }) => flat({ derived: summary.derived })), named);
+    if (follows) parts.push(el('h3', {}, 'What follows from that'), follows);
+  }
+  return section('What differs', null, parts);
 }
 
 function trompOf(run) {
@@ -101,14 +114,13 @@ function comparePage(data) {
     overlayFigure('Liquid gone with the fines', 'Share of all liquid.', runs, fines, { y: 'liquid, %', percent: true, from: 0 }),
     overlayFigure('Bridges alive', null, runs, alive, { y: 'bridges' }),
   ];
-  const differ = differences(runs);
   const notes = runs.flatMap((run) => run.notes.map((text) => `${run.name}: ${text}`));
   return [
     el('header', {}, el('p', { class: 'over' }, data.program), el('h1', {}, data.title),
       el('p', { class: 'lead' }, runs.map((run) => run.name).join(', '))),
     section('Results', null, resultsTable(runs, names)),
     el('div', { class: 'charts' }, charts),
-    differ ? section('What differs', 'Of the assumptions and of what follows from the scenes.', differ) : null,
+    runs.length > 1 ? differences(runs) : null,
     notesSection(notes),
   ];
 }

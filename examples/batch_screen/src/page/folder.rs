@@ -28,6 +28,8 @@ pub(crate) struct Run {
     notes: Vec<String>,
     /// Rows of `liquid_final.csv`: division, place, volume, in bridges, share.
     divisions: Vec<(String, String, f64, f64, f64)>,
+    /// Every key of `scene.toml` with its value; older runs have no such file.
+    scene: Option<Vec<(String, Value)>>,
 }
 
 impl Run {
@@ -50,7 +52,9 @@ impl Run {
             replay: None,
             notes: Vec::new(),
             divisions: divisions(&folder.join("liquid_final.csv")),
+            scene: None,
         };
+        run.scene(&folder.join("scene.toml"))?;
         run.retained(&folder.join("retained.csv"))?;
         for name in TABLES.into_iter().filter(|name| wanted.contains(name)) {
             run.table(&folder.join(format!("{name}.csv")), name)?;
@@ -82,6 +86,23 @@ impl Run {
         if source.cut {
             self.note(format!("The last line of {file} is not whole and was left out."));
         }
+    }
+
+    fn scene(&mut self, path: &Path) -> Result<(), PageError> {
+        let text = match std::fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+            Err(source) => return Err(PageError::Read { path: path.to_path_buf(), source }),
+        };
+        match text.parse::<toml::Table>() {
+            Ok(table) => {
+                let mut all = Vec::new();
+                leaves("", &toml::Value::Table(table), &mut all);
+                self.scene = Some(all);
+            }
+            Err(_) => self.note("scene.toml is no TOML and was left out.".to_owned()),
+        }
+        Ok(())
     }
 
     /// The table that names the classes.
@@ -174,8 +195,25 @@ impl Run {
             "tables": tables,
             "replay": replay.map(|replay| replay.json(self.classes.len())),
             "liquid_final": self.divisions,
+            "scene": self.scene,
             "notes": self.notes,
         })
+    }
+}
+
+/// Every single value and list of them, by a key such as `classes[0].count`.
+fn leaves(key: &str, value: &toml::Value, all: &mut Vec<(String, Value)>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (name, inner) in table {
+                let key = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+                leaves(&key, inner, all);
+            }
+        }
+        toml::Value::Array(list) if list.iter().any(toml::Value::is_table) => {
+            list.iter().enumerate().for_each(|(k, one)| leaves(&format!("{key}[{k}]"), one, all));
+        }
+        other => all.push((key.to_owned(), json!(other))),
     }
 }
 

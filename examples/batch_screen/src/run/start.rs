@@ -65,6 +65,8 @@ impl<'a, T: Makeup> Run<'a, T> {
         let first = Tally::of(&simulation, &gone, &screening.passed);
         let names = part_names(&simulation);
         let tables = Tables::create(&job.out, scene, &derived, &names, &first)?;
+        let allow_unstable = simulation.settings().allow_unstable;
+        crate::effective::write(scene, &derived, job, allow_unstable)?;
         let apertures = screening.apertures();
         let guard = Guard::new(scene, simulation.boundary(), &derived.class);
         let vtk = match job.vtk {
