@@ -13,6 +13,7 @@ use crate::checkpoint::Checkpoint;
 use crate::cli::{How, RunArgs};
 use crate::document::{self, Set};
 use crate::error::{RunError, SceneError};
+use crate::lock::Lock;
 use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
@@ -209,6 +210,7 @@ pub(crate) fn run_until(
         .map_err(|source| RunError::Write { path: base.clone(), source })?;
     let usual = Path::new("out").join(&name);
     let out = folder::of_run(args.out.as_deref(), &usual, args.overwrite)?;
+    let lock = Lock::take(&out)?;
     let job = Job {
         out,
         source: args.scene.clone(),
@@ -220,9 +222,9 @@ pub(crate) fn run_until(
         decided,
     };
     let done = finish(&scene, built, &job, None, style);
-    if done.is_err() && args.out.is_none() {
+    if done.is_err() {
         // A run that could not begin leaves no empty folder; one with files in it stays.
-        let _ = fs::remove_dir(&job.out);
+        lock.leave(args.out.is_none());
     }
     done
 }
@@ -230,6 +232,15 @@ pub(crate) fn run_until(
 /// Goes on with a run from its last checkpoint.
 pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
     resume_until(folder, how, Style::of(how), stop_flag())
+}
+
+/// The checkpoint of a folder that nobody else writes into from now on.
+fn taken(folder: &Path) -> Result<(Checkpoint, Lock), RunError> {
+    // Where there is no run to go on with, nothing is made.
+    Checkpoint::read(folder)?;
+    let lock = Lock::take(folder)?;
+    // Once more: until it was locked a run may have gone on.
+    Ok((Checkpoint::read(folder)?, lock))
 }
 
 /// Goes on with a run until its end, or until `stop` is set.
@@ -240,7 +251,7 @@ pub(crate) fn resume_until(
     stop: Arc<AtomicBool>,
 ) -> Result<(), RunError> {
     crate::check::interval("--checkpoint-every", how.checkpoint_every)?;
-    let checkpoint = Checkpoint::read(folder)?;
+    let (checkpoint, _lock) = taken(folder)?;
     let mut scene = Scene::parse(&checkpoint.scene, Path::new(&checkpoint.source))?;
     scene.time = checkpoint.time;
     scene.time_step = Some(checkpoint.time_step);

@@ -72,6 +72,12 @@ pub(crate) enum RunError {
     )]
     HoldsRun { folder: PathBuf },
     #[error(
+        "{} is being written by another run; allowed: another --out, or the same once that run has \
+         ended",
+        folder.display()
+    )]
+    Busy { folder: PathBuf },
+    #[error(
         "{} is no scene of an earlier run and is left as it is: a run writes a file of that name; \
          allowed: another --out",
         path.display()
@@ -117,7 +123,7 @@ impl RunError {
         match self {
             Self::Scene(SceneError::Settling { .. }) => 130,
             Self::Scene(_) | Self::Exists { .. } => 2,
-            Self::HoldsRun { .. } | Self::SceneOfUser { .. } => 2,
+            Self::HoldsRun { .. } | Self::Busy { .. } | Self::SceneOfUser { .. } => 2,
             Self::Guard { .. } | Self::Unstable { .. } => 3,
             Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
             _ => 1,

@@ -6,15 +6,17 @@ use std::path::{Path, PathBuf};
 
 use crate::effective;
 use crate::error::RunError;
+use crate::lock;
 use crate::say;
 use crate::vtk::Series;
 
 /// Files of a run; the last of them is there as soon as it has begun.
 const OF_A_RUN: [&str; 3] = ["checkpoint.bin", "summary.json", "retained.csv"];
 
-/// Refuses a folder that was asked for and holds a run.
+/// Refuses a folder that was asked for and holds a run, or is being written.
 pub(crate) fn refuse(asked: Option<&Path>, overwrite: bool) -> Result<(), RunError> {
     let Some(folder) = asked else { return Ok(()) };
+    lock::refuse(folder)?;
     let holds_run = OF_A_RUN.iter().any(|name| folder.join(name).exists());
     if holds_run && !overwrite {
         return Err(RunError::HoldsRun { folder: folder.to_path_buf() });

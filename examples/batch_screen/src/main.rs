@@ -17,6 +17,7 @@ mod frames;
 mod guard;
 mod limits;
 mod liquid_final;
+mod lock;
 mod makeup;
 mod needs;
 mod packing;

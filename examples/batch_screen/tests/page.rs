@@ -55,7 +55,10 @@ fn whole() -> TempDir {
         "division,place,volume_m3,in_bridges_m3,share\nfines,5 mm,1e-6,0,0.5\nall,all,2e-6,2e-7,1\n",
     );
     put("energy.csv", "time_s,kinetic_J,potential_J\n0,0.1,0.2\n1,0.05,0.1\n");
-    put("scene.toml", "time = 1.0\n[[classes]]\ncount = 80\n[motion]\namplitude_mm = [0, 0, 1.5]\n");
+    put(
+        "scene.toml",
+        "time = 1.0\n[[classes]]\ncount = 80\n[motion]\namplitude_mm = [0, 0, 1.5]\n",
+    );
     put(
         "passages.csv",
         "time_s,id,class,diameter_m,film_m3,x_m,y_m\n0.25,3,5 mm,0.005,1e-9,0.01,-0.02\n",
@@ -118,7 +121,8 @@ fn a_page_holds_what_the_folder_holds() {
     assert_eq!(column(&tables["energy"], "potential_J"), [0.2, 0.1]);
     assert_eq!(column(&tables["passages"], "class"), [0.0]);
     assert_eq!(run["liquid_final"][0], json!(["fines", "5 mm", 1e-6, 0.0, 0.5]));
-    let scene = json!([["classes[0].count", 80], ["motion.amplitude_mm", [0, 0, 1.5]], ["time", 1.0]]);
+    let scene =
+        json!([["classes[0].count", 80], ["motion.amplitude_mm", [0, 0, 1.5]], ["time", 1.0]]);
     assert_eq!(run["scene"], scene);
     let frames = &run["replay"]["frames"];
     assert_eq!(

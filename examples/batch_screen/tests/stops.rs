@@ -119,6 +119,35 @@ fn until(folder: &Path, args: &[&str], wanted: &str) -> (Child, impl BufRead + u
 }
 
 #[test]
+fn a_folder_is_written_by_one_run_at_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let short = ["run", "small.toml", "--set", LOOSE, "--out", "o"];
+    let args = [&short[..], &["--time", "60"]].concat();
+    let mut child = program().current_dir(folder.path()).args(&args).spawn().unwrap();
+    while !folder.path().join("o/checkpoint.bin").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it was asked to");
+        std::thread::sleep(std::time::Duration::from_millis(3));
+    }
+    let overwrite = [&short[..], &["--overwrite", "--time", "0.001"]].concat();
+    for args in [&overwrite[..], &short, &["resume", "o"]] {
+        let refused = run(folder.path(), args);
+        let said = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{args:?}: {said}");
+        assert!(said.contains("o is being written by another run"), "{args:?}: {said}");
+    }
+    // Killed, it has no more say in it.
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let done = run(folder.path(), &overwrite);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    // Where there is nothing to go on with, nothing is made.
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    assert_eq!(run(folder.path(), &["resume", "empty"]).status.code(), Some(1));
+    assert_eq!(fs::read_dir(folder.path().join("empty")).unwrap().count(), 0);
+}
+
+#[test]
 fn a_run_goes_on_when_nobody_reads_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), small()).unwrap();
