@@ -176,6 +176,7 @@ pub(crate) fn from_file(
     let fail = |line: u64, message: String| SceneError::Csv { file: file.clone(), line, message };
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
+        .comment(Some(b'#'))
         .from_path(path)
         .map_err(|e| fail(1, e.to_string()))?;
     let header = reader.headers().map_err(|e| fail(1, e.to_string()))?.clone();

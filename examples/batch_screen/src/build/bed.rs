@@ -14,6 +14,7 @@ use super::settle::{Settling, settle};
 use crate::error::SceneError;
 use crate::packing::{self, Placed, Space};
 use crate::progress::Style;
+use crate::say;
 use crate::scene::{Packing, Scene};
 
 /// Where a bed comes from and where settled ones are kept.
@@ -69,7 +70,14 @@ pub(crate) fn place(
             let lock = kept.as_deref().map(lock_of).unwrap_or_default();
             let _alone = lock.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(file) = kept.as_ref().filter(|file| file.exists()) {
-                return packing::from_file(file, &radii, &densities);
+                match look(file, &radii, &densities, &counts) {
+                    Ok(bed) => return Ok(bed),
+                    Err(why) if source.style != Style::Silent => say::note(format_args!(
+                        "the kept bed {} is not used: {why}; the bed settles again",
+                        file.display()
+                    )),
+                    Err(_) => {}
+                }
             }
             let space = space(scene, 1e-3 * floor_height_mm, *solid_fraction);
             let loose = packing::random(&radii, &counts, &space, scene.seed)
@@ -93,6 +101,40 @@ pub(crate) fn place(
             Ok(settled)
         }
     }
+}
+
+/// Reads a kept bed, or says why it is not the one that was kept. Beds of older versions have no
+/// checksum: their counts must do.
+fn look(
+    file: &Path,
+    radii: &[f64],
+    densities: &[f64],
+    counts: &[u64],
+) -> Result<Vec<Placed>, String> {
+    let text = fs::read_to_string(file).map_err(|e| e.to_string())?;
+    if let Some((rows, sum)) = text.rsplit_once(CHECKSUM)
+        && sum.trim_end() != checksum(rows)
+    {
+        return Err("its checksum is wrong".into());
+    }
+    let bed = packing::from_file(file, radii, densities).map_err(|e| e.to_string())?;
+    for (class, &count) in counts.iter().enumerate() {
+        let found = bed.iter().filter(|one| usize::from(one.class) == class).count() as u64;
+        if found != count {
+            return Err(format!(
+                "it has {found} spheres of {} mm, the scene has {count}",
+                2e3 * radii[class]
+            ));
+        }
+    }
+    Ok(bed)
+}
+
+/// How the last line of a kept bed begins; a CRC-32 of all before it follows.
+const CHECKSUM: &str = "# crc32 ";
+
+fn checksum(rows: &str) -> String {
+    format!("{:08x}", crc32fast::hash(rows.as_bytes()))
 }
 
 /// Particles from a file must lie in the frame, above where they are collected.
@@ -168,17 +210,18 @@ fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneE
     let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
     make_folder(file)?;
     let part = file.with_extension(format!("part-{}", std::process::id()));
-    let mut out = std::io::BufWriter::new(fs::File::create(&part).map_err(fail)?);
-    let mut write = || -> std::io::Result<()> {
-        writeln!(out, "id,x,y,z,radius,density")?;
-        for (id, one) in settled.iter().enumerate() {
-            let class = &classes[usize::from(one.class)];
-            let [x, y, z] = one.position.to_array();
-            // The shortest text that reads back to the same bits.
-            writeln!(out, "{id},{x:?},{y:?},{z:?},{:?},{:?}", class.radius(), class.density())?;
-        }
-        out.flush()?;
-        out.get_ref().sync_all()
+    let mut text = String::from("id,x,y,z,radius,density\n");
+    for (id, one) in settled.iter().enumerate() {
+        let class = &classes[usize::from(one.class)];
+        let [x, y, z] = one.position.to_array();
+        // The shortest text that reads back to the same bits.
+        text += &format!("{id},{x:?},{y:?},{z:?},{:?},{:?}\n", class.radius(), class.density());
+    }
+    text += &format!("{CHECKSUM}{}\n", checksum(&text));
+    let write = || -> std::io::Result<()> {
+        let mut out = fs::File::create(&part)?;
+        out.write_all(text.as_bytes())?;
+        out.sync_all()
     };
     write().map_err(fail)?;
     fs::rename(&part, file).map_err(fail)
@@ -198,8 +241,24 @@ mod tests {
         let position = DVec3::new(0.1 + 0.2, -1.0 / 3.0, 1e-17);
         let bed = [Placed { class: 0, position }];
         keep(&file, &classes, &bed).unwrap();
-        assert_eq!(packing::from_file(&file, &[2.5e-3], &[1358.0]).unwrap(), bed);
+        let read = |counts: &[u64]| look(&file, &[2.5e-3], &[1358.0], counts);
+        assert_eq!(read(&[1]).unwrap(), bed);
         assert_eq!(fs::read_dir(file.parent().unwrap()).unwrap().count(), 1);
+        // One of an older version has no checksum; one that was changed or cut is not used.
+        let text = fs::read_to_string(&file).unwrap();
+        let rows = text.split_once('#').unwrap().0;
+        fs::write(&file, rows).unwrap();
+        assert_eq!(read(&[1]).unwrap(), bed);
+        for (changed, wanted) in [
+            (text.replace("0.3", "0.2"), "its checksum is wrong"),
+            (rows.replace("0.3", "x"), "line 2"),
+            (rows.split_inclusive('\n').take(1).collect(), "0 spheres of 5 mm, the scene has 1"),
+            (String::new(), "header"),
+        ] {
+            fs::write(&file, changed).unwrap();
+            let said = read(&[1]).unwrap_err();
+            assert!(said.contains(wanted), "{said}");
+        }
     }
 
     #[test]
