@@ -41,7 +41,7 @@ function resultsTable(runs, names) {
       ['liquid', at('derived', 'liquid_m3'), (v) => told(v, 'm³')],
       ['liquid imbalance', at('liquid_imbalance'), (v) => num(v, 2)],
       ['largest overlap, share of radius', at('largest_overlap'), (v) => percent(v, 2)],
-      ['computing time', at('wall_time_s'), clock],
+      ['wall time', at('wall_time_s'), clock],
     ].filter(([, get]) => has(get)).map(([name, get, text]) => [name, (run) => {
       const value = get(run.summary);
       return typeof value === 'number' ? text(value) : '–';

@@ -23,11 +23,12 @@ const PAGE: usize = 12_000_000;
 const COMPARED: [&str; 3] = ["liquid", "bridges", "partition"];
 
 const STYLE: &str = include_str!("style.css");
-const PROGRAM: [&str; 6] = [
+const PROGRAM: [&str; 7] = [
     include_str!("text.js"),
     include_str!("chart.js"),
     include_str!("stack.js"),
     include_str!("replay.js"),
+    include_str!("scene.js"),
     include_str!("report.js"),
     include_str!("compare.js"),
 ];

@@ -94,6 +94,30 @@ class Cover {
   }
 }
 
+// Wires, frame and impact plate as the scene has them, m; parts from files are not drawn.
+function apparatus(run) {
+  const scene = new Map(run.scene || []);
+  const mm = (key) => 1e-3 * scene.get(key);
+  const radius = 0.5 * mm('screen.diameter_mm');
+  const wire = mm('screen.wire_diameter_mm');
+  const housed = scene.has('housing.plate_angle_deg');
+  if (!(radius > 0)) return null;
+  const replaced = new Set(run.scene.filter(([key]) => /^parts\[\d+\]\.name$/.test(key)).map(([, name]) => name));
+  const depth = housed ? 0.01 + 0.5 * wire : mm('screen.collect_below_mm') + 0.02;
+  const out = { radius, wire, wires: [] };
+  if (!replaced.has('wires')) {
+    const pitch = mm('screen.aperture_mm') + wire;
+    for (let at = 0.5 * pitch; at < radius; at += pitch) out.wires.push(-at, at);
+  }
+  if (!replaced.has('frame')) out.frame = [-depth, mm('screen.height_mm') + 0.05];
+  if (housed && !replaced.has('impact plate')) {
+    const [start, high] = [-(radius + 0.002), -depth - mm('housing.plate_gap_mm')];
+    const end = -start + mm('housing.outlet_length_mm');
+    out.plate = [[start, high], [end, high - (end - start) * Math.tan((scene.get('housing.plate_angle_deg') * Math.PI) / 180)]];
+  }
+  return out;
+}
+
 class View {
   // across, up, deep: axes as indices of x, y, z; `toward` is true if greater depth is nearer.
   constructor(replay, across, up, deep, toward) {
@@ -125,6 +149,7 @@ class View {
     const context = this.canvas.getContext('2d');
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.axes(context);
+    this.walls(context);
     const columns = [frame.x, frame.y, frame.z];
     const [px, py] = [this.across, this.up].map((axis) => {
       const [low, high] = this.replay.bounds[axis];
@@ -147,6 +172,48 @@ class View {
       const picture = sprites[of][shades ? Math.min(SHADES - 1, Math.floor((frame.film[k] * SHADES) / 256)) : 0];
       context.drawImage(picture, x - picture.width / 2, y - picture.height / 2);
     }
+  }
+
+  // Behind the spheres: lines of the apparatus at rest, as far as the picture goes.
+  walls(context) {
+    const walls = this.replay.walls;
+    if (!walls) return;
+    const [x, y] = [(v) => this.place(this.across, v), (v) => this.place(this.up, v)];
+    const [[left, right], [low, high]] = [this.span(this.across), this.span(this.up)];
+    context.save();
+    context.beginPath();
+    context.rect(x(left), y(high), x(right) - x(left), y(low) - y(high));
+    context.clip();
+    context.strokeStyle = colorOf('--line');
+    const line = (...points) => {
+      context.beginPath();
+      points.forEach(([a, b]) => context.lineTo(x(a), y(b)));
+      context.stroke();
+    };
+    const { radius, wires, wire, frame, plate } = walls;
+    if (this.up === 2) {
+      context.fillStyle = colorOf('--line');
+      for (const at of wires) {
+        context.beginPath();
+        context.arc(x(at), y(0), Math.max(1, 0.5 * wire * this.scale), 0, 2 * Math.PI);
+        context.fill();
+      }
+      context.lineWidth = 2 * this.sharp;
+      if (frame) [-radius, radius].forEach((at) => line([at, frame[0]], [at, frame[1]]));
+      if (plate) line(...plate);
+    } else {
+      context.lineWidth = Math.max(1, wire * this.scale);
+      for (const at of wires) {
+        const half = Math.sqrt(radius * radius - at * at);
+        line([at, -half], [at, half]);
+        line([-half, at], [half, at]);
+      }
+      context.lineWidth = 2 * this.sharp;
+      context.beginPath();
+      context.arc(x(0), y(0), radius * this.scale, 0, 2 * Math.PI);
+      if (frame) context.stroke();
+    }
+    context.restore();
   }
 
   axes(context) {
@@ -190,7 +257,7 @@ function replaySection(run) {
   const packed = run.replay;
   const frames = unpack(packed);
   const radii = run.classes.map((c) => (c.diameter_mm ? 0.5e-3 * c.diameter_mm : 1.5e-3));
-  const replay = { bounds: packed.bounds, margin: Math.max(...radii), radii };
+  const replay = { bounds: packed.bounds, margin: Math.max(...radii), radii, walls: apparatus(run) };
   const views = [new View(replay, 0, 1, 2, true), new View(replay, 0, 2, 1, false)];
   const state = { index: 0, by: 'film', playing: 0, sprites: null };
   const filmed = frames.some((f) => f.film.some((v) => v > 0));
@@ -283,7 +350,7 @@ function replaySection(run) {
       resize();
     }
   }).observe(host);
-  const node = section('Replay', 'The spheres not yet collected at some moments; the dashed line of the side view is the height of the wires at rest. Between two moments the screen has shaken several times: this is a series of pictures, not a film.',
+  const node = section('Replay', `The spheres not yet collected at some moments; the dashed line of the side view is the height of the wires at rest${replay.walls ? '; wires, frame and impact plate are drawn where they rest' : ''}. Between two moments the screen has shaken several times: this is a series of pictures, not a film.`,
     controls, key, host);
   node.redraw = () => { state.sprites = null; draw(); };
   return node;

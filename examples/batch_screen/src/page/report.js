@@ -16,18 +16,21 @@ function head(run, program) {
   const time = retained.column('time_s')[last];
   const sum = (object) => (object && typeof object === 'object' ? Object.values(object).reduce((a, b) => a + b, 0) : NaN);
   const passed = sum(s.passed);
-  const gone = `${count(first - now)} of ${count(first)} spheres lay in the collecting bin`;
+  const escaped = typeof s.escaped === 'number' ? s.escaped : 0;
+  const binned = first - now - escaped;
+  const gone = `${count(binned)} of ${count(first)} spheres lay in the collecting bin${escaped ? `, ${count(escaped)} had escaped in another way` : ''}`;
   const sentence = retained.rows
-    ? `After ${num(time)} s, ${passed > first - now ? `${count(passed)} spheres had passed the screen, ` : ''}${gone}, and ${percent(total)} of the mass was retained.`
+    ? `After ${num(time)} s, ${passed > binned ? `${count(passed)} spheres had passed the screen, ` : ''}${gone}, and ${percent(total)} of the mass was retained.`
     : 'The run has no rows yet.';
   const tile = (value, text) => el('div', { class: 'tile' }, el('b', {}, value), el('span', {}, text));
   const tiles = [];
-  if (retained.rows) tiles.push(tile(percent(total), 'of the mass retained'), tile(count(now), 'spheres not collected'));
+  if (retained.rows) tiles.push(tile(percent(total), 'of the mass retained'), tile(count(now), escaped ? 'spheres still there' : 'spheres not collected'));
+  if (escaped) tiles.push(tile(count(escaped), 'spheres escaped, counted as retained'));
   const bridges = s.bridges || {};
   if (typeof bridges.formed === 'number') tiles.push(tile(count(bridges.formed), 'bridges formed'));
   if (s.derived && typeof s.derived.liquid_m3 === 'number' && s.derived.liquid_m3 > 0) tiles.push(tile(told(s.derived.liquid_m3, 'm³'), 'liquid'));
   if (typeof s.liquid_imbalance === 'number') tiles.push(tile(num(s.liquid_imbalance, 2), 'liquid imbalance'));
-  if (typeof s.wall_time_s === 'number') tiles.push(tile(clock(s.wall_time_s), 'computing time'));
+  if (typeof s.wall_time_s === 'number') tiles.push(tile(clock(s.wall_time_s), 'wall time'));
   const fault = s.stopped_by_guard;
   const stopped = typeof fault === 'string' ? el('p', { class: 'fault', role: 'alert' }, el('b', {}, 'Stopped: '), fault) : null;
   return el('header', {}, el('p', { class: 'over' }, [program, run.name].join(' · ')),
@@ -38,71 +41,6 @@ function clock(seconds) {
   if (seconds < 90) return `${num(seconds, 3)} s`;
   if (seconds < 5400) return `${num(seconds / 60, 3)} min`;
   return `${num(seconds / 3600, 3)} h`;
-}
-
-// Names and values of an object, as a list.
-function facts(object, order, badge) {
-  return el('dl', {}, Object.entries(object).map(([key, value]) => {
-    const { label, unit } = named(key);
-    return el('div', {}, el('dt', {}, label, badge ? el('em', {}, badge) : null), el('dd', {}, told(value, unit, order)));
-  }));
-}
-
-// What a reader asks first: screen, motion, liquid, laws.
-function sceneFacts(scene) {
-  const rows = [];
-  const get = (key) => scene.get(key);
-  const row = (label, ...cells) => {
-    const known = cells.filter(([key]) => get(key) !== undefined).map(([key, unit, before]) => [before, told(get(key), unit)].filter(Boolean).join(' '));
-    if (known.length) rows.push([label, known.join(', ')]);
-  };
-  row('screen', ['screen.aperture_mm', 'mm', 'aperture'], ['screen.wire_diameter_mm', 'mm', 'wires of'], ['screen.diameter_mm', 'mm', 'diameter']);
-  row('motion', ['motion.frequency', 'Hz'], ['motion.amplitude_mm', 'mm', 'amplitude x, y, z'], ['motion.phase_deg', '°', 'phase']);
-  for (let k = 0; get(`motion.terms[${k}].frequency`) !== undefined; k += 1) {
-    row('and', [`motion.terms[${k}].frequency`, 'Hz'], [`motion.terms[${k}].amplitude_mm`, 'mm', 'amplitude']);
-  }
-  if (get('liquid.moisture_percent') === undefined) rows.push(['liquid', 'none: a dry run']);
-  row('moisture', ['liquid.moisture_percent', '% of the dry mass']);
-  row('liquid', ['liquid.viscosity', 'Pa s', 'viscosity'], ['liquid.surface_tension', 'N/m', 'surface tension'], ['liquid.density', 'kg/m³']);
-  row('capillary force', ['liquid.capillary', ''], ['liquid.capillary_wall', '', 'to walls']);
-  row('normal drag', ['liquid.normal_drag', ''], ['liquid.drag', '']);
-  row('tangential drag', ['liquid.tangential_drag', ''], ['liquid.tangential_drag_wall', '', 'to walls']);
-  row('rupture', ['liquid.rupture', ''], ['liquid.rupture_wall', '', 'to walls'], ['liquid.dynamic_rupture', '', 'dynamic']);
-  row('transfer', ['liquid.transfer', '']);
-  row('contact stiffness', ['contact.stiffness', 'N/m']);
-  row('bed', ['packing.from', '', 'from'], ['seed', '', 'seed']);
-  row('time', ['time', 's'], ['time_step', 's', 'step of']);
-  return rows;
-}
-
-const list = (rows) => el('dl', {}, rows.map(([name, text]) => el('div', {}, el('dt', {}, name), el('dd', {}, text))));
-
-function wholeScene(run) {
-  const name = run.summary.scene;
-  return el('details', {}, el('summary', {}, 'All values of the scene'),
-    el('p', { class: 'note' }, `As they were run${name ? `: the scene ${name} with what the command line and the program decided` : ''}; also in scene.toml beside this file.`),
-    el('dl', { class: 'keys' }, run.scene.map(([key, value]) => el('div', {}, el('dt', {}, key), el('dd', {}, told(value))))));
-}
-
-function sceneSection(run) {
-  const { summary } = run;
-  const blocks = [];
-  const given = run.scene ? sceneFacts(new Map(run.scene)) : null;
-  const block = (title, note, body) => blocks.push(el('div', { class: 'block' }, el('h3', {}, title), note ? el('p', {}, note) : null, body));
-  const derived = { ...(summary.derived || {}) };
-  const shown = { steps: 'steps', threads: 'threads', escaped: 'spheres lost in other ways' };
-  for (const [key, label] of Object.entries(shown)) if (key in summary) derived[label] = summary[key];
-  if (typeof summary.largest_overlap === 'number') derived['largest overlap, share of a radius'] = percent(summary.largest_overlap);
-  if (given) block('The scene', null, list(given));
-  if (Object.keys(derived).length) block('What follows from the scene', null, facts(derived, orderOf(run)));
-  const assumptions = summary.assumptions;
-  if (assumptions && typeof assumptions === 'object' && Object.keys(assumptions).length) {
-    const body = Array.isArray(assumptions)
-      ? el('ul', { class: 'plain' }, assumptions.map((text) => el('li', {}, el('em', {}, 'assumed'), ' ', told(text))))
-      : facts(assumptions, orderOf(run), 'assumed');
-    block('Assumptions', 'Not given by a source; the results depend on them.', body);
-  }
-  return blocks.length ? el('section', {}, el('div', { class: 'pair' }, blocks), given ? wholeScene(run) : null) : null;
 }
 
 function classSeries(run, source, column = (name) => source.column(name)) {
@@ -117,7 +55,7 @@ function retainedFigure(run) {
   const t = table(run.tables.retained);
   const series = [{ name: 'total', x: t.column('time_s'), y: t.column('total'), ...TOTAL }, ...classSeries(run, t)];
   const title = 'Fraction retained';
-  return figure(title, 'Mass that is not in the collecting bin over the mass at the start: of everything, and of each class with its films.',
+  return figure(title, 'Mass that is not in the collecting bin over the mass at the start: of everything, and of each class with its films. A class that takes up liquid from others can retain more than 100 %.',
     (host) => lineChart(host, { title, ...TIME, y: 'retained, %', percent: true, from: 0, to: ceiling(series), series, tall: 380 }), true);
 }
 
@@ -181,7 +119,12 @@ function trompFigure(run) {
   const verticals = Number.isFinite(cut) ? [{ x: cut, text: `cut size ${num(cut, 3)} mm` }] : [];
   const imperfection = get('imperfection');
   const title = 'Partition (Tromp) curve';
-  const note = `Probability of having passed against diameter${Number.isFinite(imperfection) ? `; imperfection ${num(imperfection, 3)}` : ''}${Number.isFinite(cut) ? '' : '; no cut size: the curve does not cross one half'}.`;
+  const found = Number.isFinite(cut)
+    ? ' The cut size is where the straight line between two classes crosses one half: with few classes it is rough, and can lie above the aperture.'
+    : ' No cut size: the curve does not cross one half.';
+  const steep = Number.isFinite(imperfection)
+    ? ` Imperfection ${num(imperfection, 3)}: half the distance between the diameters that pass with 25 and 75 %, found in the same way, over the cut size.` : '';
+  const note = `Probability of having passed against diameter.${found}${steep}`;
   return figure(title, note, (host) => lineChart(host, {
     title, x: 'diameter, mm', xUnit: 'mm', y: 'passed, %', percent: true, from: 0, to: 1.02, points: true, verticals, series,
   }));
@@ -253,6 +196,9 @@ function peggingFigure(run) {
     (host) => lineChart(host, { title, ...TIME, y: all ? 'blocked, %' : 'blocked', percent: Boolean(all), from: 0, series }));
 }
 
+const ENERGY = 'Of the spheres still there. The curves are no balance: what the moving walls put in, what contacts and drags take out '
+  + '(dissipated, in the physics budget) and what leaves with spheres are not among them.';
+
 function energyFigure(run) {
   const t = table(run.tables.energy);
   if (!t || t.rows < 2) return null;
@@ -266,7 +212,7 @@ function energyFigure(run) {
     name: joules ? named(name).label : name.replaceAll('_', ' '), x: t.column('time_s'), y: times(columns[k], 1 / factor), ...look(k),
   }));
   const title = 'Energy';
-  return figure(title, 'Of the spheres not collected.', (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
+  return figure(title, ENERGY, (host) => lineChart(host, { title, ...TIME, y: unit ? `energy, ${unit}` : 'energy', series }));
 }
 
 // Where spheres passed, seen from above.
@@ -319,7 +265,7 @@ function splitFigure(run) {
   const total = rows.reduce((sum, [, v]) => sum + v, 0);
   const { steps } = run.summary;
   const speed = steps && wall ? ` ${num((1e6 * wall) / steps, 3)} µs per step.` : '';
-  return el('figure', {}, el('figcaption', {}, el('h3', {}, 'Where the time went'), el('p', {}, `${clock(total)} of computing in all.${speed}`)), bars(rows, total, clock));
+  return el('figure', {}, el('figcaption', {}, el('h3', {}, 'Where the time went'), el('p', {}, `${typeof wall === 'number' ? `${clock(wall)} of wall time.` : ''}${speed} What runs in parallel is summed over the threads.`.trim())), bars(rows, total, clock));
 }
 
 function finalSection(run) {
@@ -335,8 +281,9 @@ function finalSection(run) {
     ['at the start', started, count],
     ['passed the screen', (c) => of(s.passed, c.name), count],
     ['collected', (c) => of(s.collected, c.name), count],
-    ['not collected', (c) => of(s.above, c.name), count],
-    ['liquid on these, µl', (c) => 1e9 * of(of(s.liquid_m3, 'above'), c.name), num],
+    ...(s.escaped ? [['escaped', (c) => of(s.escaped_by_class, c.name), count]] : []),
+    [s.escaped ? 'still there' : 'not collected', (c) => of(s.above, c.name), count],
+    ['liquid on those not collected, µl', (c) => 1e9 * of(of(s.liquid_m3, 'above'), c.name), num],
   ].map(([name, get, text]) => [name, run.classes.map(get), text])
     .filter(([, values]) => values.some((v) => v >= 0) && values.every(Number.isFinite));
   const retained = (c) => of(of(s.fraction_retained, 'by_class'), c.name) ?? lastOf(c.name);
@@ -350,7 +297,7 @@ function finalSection(run) {
   const forces = forcesTable(s.physics_budget);
   if (forces) parts.push(el('h3', {}, 'Physics budget'), forces);
   const budget = budgetTable(s.budget, orderOf(run));
-  if (budget) parts.push(el('h3', {}, 'Physics budget'), budget);
+  if (budget) parts.push(el('h3', {}, 'Physics budget'), el('p', { class: 'note' }, BUDGET), budget);
   return section('At the end', null, parts);
 }
 
@@ -378,6 +325,16 @@ function forcesTable(budget) {
   return rows.length ? grid(['force', 'of the impulse', 'of that with walls', 'of the dissipation', 'verdict'], rows) : null;
 }
 
+const BUDGET = 'What each force has done. Impulse: its size summed over all contacts and bridges and over time, as a share of that of all forces; '
+  + 'with walls: the part of it that acts between spheres and walls; dissipated: the energy that it took from the motion, as a share of what all took, and by itself; '
+  + 'outside law range: the share of the bridges that were formed where the law was not measured.';
+
+// Its columns; the words, which are wide, stand behind the numbers.
+const HEADS = {
+  force: 'force', impulse_percent: 'impulse', with_walls_percent: 'with walls', dissipated_percent: 'share dissipated',
+  dissipated_J: 'energy dissipated', outside_law_range_percent: 'outside law range', verdict: 'verdict',
+};
+
 // A list of rows, of objects, or an object: whatever a summary has.
 function budgetTable(budget, order) {
   const cell = (value, key) => told(value, key ? named(key).unit : '', order);
@@ -385,9 +342,11 @@ function budgetTable(budget, order) {
   if (Array.isArray(budget) && budget.length) {
     if (budget.every(plain)) {
       const keys = [...new Set(budget.flatMap((row) => Object.keys(row)))];
-      const words = (key) => (budget.some((row) => typeof row[key] === 'string') ? 0 : 1);
-      keys.sort((a, b) => words(a) - words(b));
-      return grid(keys.map((key) => named(key).label), budget.map((row) => keys.map((key) => (key in row ? cell(row[key], key) : ''))));
+      const known = Object.keys(HEADS);
+      const rank = (key) => (known.includes(key) ? known.indexOf(key) : known.length - 1.5);
+      keys.sort((a, b) => rank(a) - rank(b));
+      const head = (key) => HEADS[key] || named(key).label;
+      return grid(keys.map(head), budget.map((row) => keys.map((key) => (key in row ? cell(row[key], key) : ''))));
     }
     const rows = budget.map((row) => (Array.isArray(row) ? row : [row]).map((v) => cell(v)));
     return grid(rows[0].map(() => ''), rows);
