@@ -12,6 +12,7 @@ use crate::build::apparatus::{floor, group};
 use crate::error::RunError;
 use crate::makeup::Makeup;
 use crate::scene::Scene;
+use crate::tables::number;
 use crate::tally::Tally;
 
 /// The divisions: what no account holds, walls beside the screen, screen with what is not
@@ -38,7 +39,6 @@ pub(crate) fn write<T: Makeup>(
     let write = || -> Result<(), csv::Error> {
         let mut file = csv::Writer::from_path(&path)?;
         file.write_record(HEADER)?;
-        let number = |value: f64| format!("{value:.9e}");
         let all = wet.ledger().parts().initial;
         for (division, place, [volume, bridges]) in rows {
             let share = if all > 0.0 { volume / all } else { 0.0 };

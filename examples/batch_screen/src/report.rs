@@ -114,14 +114,17 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
         sum(&tally.above),
         sum(&tally.collected)
     );
-    if tally.escaped > 0 {
-        text +=
-            &format!("  {} particles left in another way than through the screen\n", tally.escaped);
+    if tally.lost() > 0 {
+        text += &format!(
+            "  {} spheres escaped: they left in another way than into the collecting bin and count as \
+             retained\n",
+            tally.lost()
+        );
     }
     if scene.liquid.is_some() {
         let ul = |volume: f64| 1e9 * volume;
         text += &format!(
-            "  liquid [ul]: {:.1} on particles above, {:.1} on fines, {:.1} on walls, {:.1} in {} bridges\n",
+            "  liquid [ul]: {:.1} on spheres not collected, {:.1} on fines, {:.1} on walls, {:.1} in {} bridges\n",
             ul(tally.film.iter().sum()),
             ul(tally.fines.iter().sum()),
             ul(tally.parts.iter().sum()),
@@ -194,7 +197,8 @@ pub(crate) fn summary(
             "liquid_m3": derived.liquid,
             "film_m": derived.film,
         },
-        "time_s": tally.time,
+        // To the digits of the tables.
+        "time_s": (1e6 * tally.time).round() / 1e6,
         "drag": scene.liquid.as_ref().map(|_| if derived.implicit { "implicit" } else { "explicit" }),
         "drag_passes_since_resume": derived.implicit.then(|| json!({
             "steps": outcome.passes.steps,
@@ -216,7 +220,8 @@ pub(crate) fn summary(
         "passed": by_class(tally.passed.iter().map(|n| json!(n)).collect()),
         "above": by_class(tally.above.iter().map(|n| json!(n)).collect()),
         "partition": { "cut_size_mm": cut, "imperfection": imperfection },
-        "escaped": tally.escaped,
+        "escaped": tally.lost(),
+        "escaped_by_class": by_class(tally.escaped.iter().map(|n| json!(n)).collect()),
         "bridges": {
             "formed": tally.counts.formed,
             "ruptured": tally.counts.ruptured,

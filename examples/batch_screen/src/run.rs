@@ -350,12 +350,13 @@ impl<T: Makeup> Run<'_, T> {
     fn book(&mut self, particle: &Particle, collected: bool) {
         let class = usize::from(particle.class);
         let film = self.simulation.term_mut().wet_mut().map_or(0.0, |wet| wet.drain(particle.id));
-        self.gone.fines[class] += film;
-        if collected {
-            self.gone.collected[class] += 1;
-        } else {
-            self.gone.escaped += 1;
-        }
+        let gone = &mut self.gone;
+        let (count, liquid) = match collected {
+            true => (&mut gone.collected, &mut gone.fines),
+            false => (&mut gone.escaped, &mut gone.taken),
+        };
+        count[class] += 1;
+        liquid[class] += film;
     }
 }
 

@@ -351,10 +351,10 @@ impl Tables {
 }
 
 /// Mass not in the collecting bin (E18 eq. 44: particles and all liquid but the fines') and that of
-/// each class with its films (E18 eq. 45), kg.
+/// each class with its films (E18 eq. 45), kg. What escaped is in no bin: it counts as retained.
 pub(crate) fn masses(tally: &Tally, solid: &[f64], density: f64) -> (f64, Vec<f64>) {
     let classes: Vec<f64> = (0..solid.len())
-        .map(|k| tally.above[k] as f64 * solid[k] + density * tally.film_shared[k])
+        .map(|k| tally.retained(k) as f64 * solid[k] + density * tally.film_shared[k])
         .collect();
     let held: f64 = tally.parts_shared.iter().sum();
     (classes.iter().sum::<f64>() + density * held, classes)
@@ -385,6 +385,7 @@ fn seconds(time: f64) -> String {
     format!("{time:.6}")
 }
 
-fn number(value: f64) -> String {
-    format!("{value:.9e}")
+/// Nothing is `0`, never `-0`: the sum of no numbers is the latter.
+pub(crate) fn number(value: f64) -> String {
+    format!("{:.9e}", value + 0.0)
 }

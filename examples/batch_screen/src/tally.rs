@@ -12,15 +12,16 @@ use crate::makeup::Makeup;
 pub(crate) struct Tally {
     /// Simulated time, s.
     pub(crate) time: f64,
-    /// Particles of each class not yet collected.
+    /// Particles of each class that are still there.
     pub(crate) above: Vec<u64>,
     /// Particles of each class that were collected.
     pub(crate) collected: Vec<u64>,
     /// Particles of each class that have passed the screen, collected or not.
     pub(crate) passed: Vec<u64>,
-    /// Particles that left in any other way.
-    pub(crate) escaped: u64,
-    /// Liquid in films on the particles of each class not collected, m³.
+    /// Particles of each class that left in any other way.
+    pub(crate) escaped: Vec<u64>,
+    /// Liquid in films on the particles of each class not collected, those that escaped with what
+    /// they took along, m³.
     pub(crate) film: Vec<f64>,
     /// The same with the shares of the bridges they hold, split as at a rupture now, m³.
     pub(crate) film_shared: Vec<f64>,
@@ -55,7 +56,17 @@ pub(crate) struct Tally {
 pub(crate) struct Gone {
     pub(crate) collected: Vec<u64>,
     pub(crate) fines: Vec<f64>,
-    pub(crate) escaped: u64,
+    pub(crate) escaped: Vec<u64>,
+    /// Liquid on those that escaped, m³.
+    pub(crate) taken: Vec<f64>,
+}
+
+impl Gone {
+    /// Nothing yet, of so many classes.
+    pub(crate) fn none(classes: usize) -> Self {
+        let (none, dry) = (vec![0; classes], vec![0.0; classes]);
+        Self { collected: none.clone(), fines: dry.clone(), escaped: none, taken: dry }
+    }
 }
 
 impl Tally {
@@ -69,11 +80,11 @@ impl Tally {
         let mut tally = Self {
             time: simulation.time(),
             above: vec![0; classes.len()],
-            film: vec![0.0; classes.len()],
+            film: gone.taken.clone(),
             film_shared: vec![0.0; classes.len()],
             collected: gone.collected.clone(),
             fines: gone.fines.clone(),
-            escaped: gone.escaped,
+            escaped: gone.escaped.clone(),
             passed: passed.to_vec(),
             parts: vec![0.0; simulation.boundary().0.parts().len()],
             kinetic: simulation.particles().kinetic_energy(),
@@ -125,7 +136,8 @@ impl Tally {
             alive += 1;
         }
         self.mean_v_star = v_star / alive.max(1) as f64;
-        self.bridges = wet.ledger().in_bridges();
+        // The sum of no volumes is -0.
+        self.bridges = wet.ledger().in_bridges() + 0.0;
         self.counts = wet.counts();
         self.imbalance = wet.ledger().imbalance();
         self.capillary_loss = wet.capillary_loss();
@@ -133,6 +145,16 @@ impl Tally {
             let energy = |bridge| wet.energy_of(bridge, pair.encounter.gap);
             self.capillary += T::store(column).bridge.and_then(energy).unwrap_or(0.0);
         });
+    }
+
+    /// Particles of a class that are not in the collecting bin.
+    pub(crate) fn retained(&self, class: usize) -> u64 {
+        self.above[class] + self.escaped[class]
+    }
+
+    /// Particles that escaped.
+    pub(crate) fn lost(&self) -> u64 {
+        self.escaped.iter().sum()
     }
 
     /// Live bridges.

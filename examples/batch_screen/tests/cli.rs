@@ -131,6 +131,19 @@ fn a_dry_run_has_no_liquid_tables() {
     assert!(done.status.success(), "{}", text(&done.stderr));
     assert!(folder.path().join("out/dry/retained.csv").exists());
     assert!(!folder.path().join("out/dry/liquid.csv").exists());
+    // One with a liquid but none of it has them, full of plain zeros.
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let none = ["run", "small.toml", "--time", "0.03", "--set", "liquid.moisture_percent=0"];
+    let done = run(folder.path(), &none);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    for name in
+        ["liquid.csv", "liquid_shared.csv", "liquid_final.csv", "energy.csv", "summary.json"]
+    {
+        let text = fs::read_to_string(folder.path().join("out/small").join(name)).unwrap();
+        assert!(!text.contains("-0.0"), "{name}: {text}");
+    }
+    assert!(!text(&done.stdout).contains("-0"), "{}", text(&done.stdout));
+    assert_eq!(summary(&folder.path().join("out/small"))["time_s"], 0.03);
 }
 
 /// Bad scenes: what is changed in a good one, where the error must point (at the change where

@@ -61,7 +61,7 @@ impl<'a, T: Makeup> Run<'a, T> {
     ) -> Result<Self, RunError> {
         let screening = Screening::new(scene, derived.class.len());
         let classes = scene.classes.len();
-        let gone = Gone { collected: vec![0; classes], fines: vec![0.0; classes], escaped: 0 };
+        let gone = Gone::none(classes);
         let first = Tally::of(&simulation, &gone, &screening.passed);
         let names = part_names(&simulation);
         let tables = Tables::create(&job.out, scene, &derived, &names, &first)?;
