@@ -29,6 +29,8 @@ mod report;
 mod run;
 mod say;
 mod scene;
+#[cfg(test)]
+mod scene_docs;
 mod screening;
 mod spent;
 mod sweep;
