@@ -346,7 +346,7 @@ fn threads(how: &How) -> Result<usize, SceneError> {
     count_threads(how.threads)
 }
 
-fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
+pub(crate) fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = asked.unwrap_or(cores);
     if (1..=MOST_THREADS).contains(&threads) {

@@ -211,6 +211,53 @@ fn a_seed_that_a_row_sets_stands_in_the_column_of_seeds() {
 }
 
 #[test]
+fn a_row_shows_its_settings_as_they_are_and_the_results_of_no_others() {
+    let sweep = |row: &str| {
+        format!("scene = \"small.toml\"\ntime = 0.001\n[[rows]]\nname = \"a\"\n{row}\n")
+    };
+    let folder = folder(&sweep("screen.aperture_mm = 7\nliquid.viscosity = 2e-3"));
+    let args = ["sweep", "s.toml", "--threads", "1"];
+    let done = run(folder.path(), &args);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert!(text(&done.stdout).contains("a: finished: fraction retained 1.0000, 0."), "{done:?}");
+    assert!(!table(folder.path())["a"]["retained 5 mm"].is_empty());
+    let cells = |row: &str, how: &[&str]| {
+        fs::write(folder.path().join("s.toml"), sweep(row)).unwrap();
+        let done = run(folder.path(), &[&args[..], how].concat());
+        (done.status.code(), table(folder.path()).remove("a").unwrap())
+    };
+    // The folder holds the run with 7 mm.
+    for how in [&[][..], &["--gather"]] {
+        let (code, row) = cells("screen.aperture_mm = 6", how);
+        assert_eq!((code, &*row["status"], &*row["exit"]), (Some(1), "failed", "1"), "{how:?}");
+        assert_eq!((&*row["screen.aperture_mm"], &*row["liquid.viscosity"]), ("6", ""));
+        for column in ["time_s", "retained", "retained 5 mm", "steps", "wall_time_s"] {
+            assert_eq!(row[column], "", "{column}");
+        }
+    }
+    // Without a folder it is the table that knows of the failure, as long as it is about this row.
+    fs::remove_dir_all(folder.path().join("out/s/a")).unwrap();
+    let (code, row) = cells("screen.aperture_mm = 6", &["--gather"]);
+    assert_eq!((code, &*row["status"], &*row["exit"]), (Some(1), "failed", "1"));
+    let (code, row) = cells("screen.aperture_mm = 7", &["--gather"]);
+    assert_eq!((code, &*row["status"], &*row["message"]), (Some(0), "waiting", ""));
+}
+
+#[test]
+fn no_jobs_and_no_threads_are_refused() {
+    let folder = folder(SWEEP);
+    for (option, allowed) in [("--jobs", "a whole number from 1"), ("--threads", "1 to 1024")] {
+        for emit in [&[][..], &["--emit", "list"]] {
+            let done = run(folder.path(), &[&["sweep", "s.toml", option, "0"], emit].concat());
+            let said = text(&done.stderr);
+            assert_eq!(done.status.code(), Some(2), "{said}");
+            assert!(said.contains(option) && said.contains(allowed), "{said}");
+        }
+    }
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
 fn the_sample_is_a_good_sweep() {
     let folder = folder("");
     let wrote = run(folder.path(), &["sample", "--sweep", "mine.toml"]);

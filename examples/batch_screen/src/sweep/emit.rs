@@ -14,6 +14,12 @@ fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
+/// A name that SLURM takes as it is, also in the names of files: no quotes, no `%`.
+fn job_name(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    name.chars().map(|c| if plain(c) { c } else { '_' }).collect()
+}
+
 fn program() -> String {
     let own = std::env::current_exe().unwrap_or_else(|_| "batch_screen".into());
     quoted(&own.to_string_lossy())
@@ -56,7 +62,7 @@ pub(crate) fn slurm(plan: &Plan, args: &SweepArgs, out: &Path, threads: usize) -
          #SBATCH --requeue\n\
          #SBATCH --output={name}-%A_%a.log\n\
          exec {program} {command}\n",
-        name = plan.name.replace(char::is_whitespace, "_"),
+        name = job_name(&plan.name),
         program = program(),
     )
 }
@@ -64,6 +70,11 @@ pub(crate) fn slurm(plan: &Plan, args: &SweepArgs, out: &Path, threads: usize) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_name_of_a_job_is_plain() {
+        assert_eq!(job_name("it's 5 %\u{e9}-a_b.2"), "it_s_5___-a_b.2");
+    }
 
     #[test]
     fn words_survive_a_shell() {

@@ -46,8 +46,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
     let plan = Plan::read(&args.file)?;
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&plan.name));
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let jobs = args.jobs.max(1);
-    let threads = args.how.threads.unwrap_or((cores / jobs).max(1));
+    let jobs = jobs(args.jobs)?;
+    let threads = commands::count_threads(args.how.threads.or(Some((cores / jobs).max(1))))?;
     match args.emit {
         Some(Emit::List) => say::text(&emit::list(&plan, args, &out, threads)),
         Some(Emit::Slurm) => say::text(&emit::slurm(&plan, args, &out, threads)),
@@ -65,6 +65,15 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
         }
     }
     Ok(())
+}
+
+fn jobs(asked: usize) -> Result<usize, SceneError> {
+    if asked > 0 {
+        return Ok(asked);
+    }
+    let (place, key) = (Place::option("--jobs"), "jobs".to_owned());
+    let allowed = "a whole number from 1".to_owned();
+    Err(SceneError::Value { place, key, value: asked.to_string(), allowed })
 }
 
 impl Sweep<'_> {
@@ -91,7 +100,10 @@ impl Sweep<'_> {
             match self.found(run) {
                 Ok(Found::Whole) => sheet.note(row, &folder, Status::Finished, Some(0), ""),
                 Ok(Found::Part) if self.args.gather => {
-                    sheet.note(row, &folder, Status::Interrupted, None, "");
+                    match table::summary(&folder)["stopped_by_guard"].as_str() {
+                        Some(why) => sheet.note(row, &folder, Status::Failed, Some(3), why),
+                        None => sheet.note(row, &folder, Status::Interrupted, None, ""),
+                    }
                 }
                 Ok(_) => left.push(row),
                 Err(error) => sheet.note(row, &folder, Status::Failed, Some(1), &error.to_string()),
@@ -112,7 +124,7 @@ impl Sweep<'_> {
                 waiting: waiting + sheet.count(Status::Interrupted),
             });
         }
-        if failed > 0 && !self.args.gather {
+        if failed > 0 {
             return Err(RunError::Sweep { failed, runs: self.plan.runs.len() });
         }
         Ok(())
@@ -160,9 +172,9 @@ impl Sweep<'_> {
         sheet.note(row, &folder, status, Some(code), &message);
         let tail = match status {
             Status::Finished => {
-                let (retained, time) =
-                    (sheet.cell(row, "retained"), sheet.cell(row, "wall_time_s"));
-                format!("fraction retained {retained}, {time} s")
+                let number = |name: &str| sheet.cell(row, name).parse().unwrap_or(f64::NAN);
+                let (retained, time) = (number("retained"), number("wall_time_s"));
+                format!("fraction retained {retained:.4}, {time:.1} s")
             }
             _ => message,
         };

@@ -41,6 +41,19 @@ const RESULTS: [(&str, &str); 9] = [
     ("wall_time_s", "/wall_time_s"),
 ];
 
+/// Columns that tell how a run went.
+const OUTCOME: [&str; 3] = ["status", "exit", "message"];
+
+fn is_result(column: &str) -> bool {
+    RESULTS.iter().any(|(name, _)| *name == column) || column.starts_with("retained ")
+}
+
+/// The summary in the folder of a run; null where there is none.
+pub(super) fn summary(folder: &Path) -> Value {
+    let text = std::fs::read(folder.join("summary.json")).unwrap_or_default();
+    serde_json::from_slice(&text).unwrap_or_default()
+}
+
 /// `sweep.csv`.
 pub(crate) struct Sheet {
     path: PathBuf,
@@ -72,13 +85,12 @@ impl Sheet {
             let column = header.iter().position(|known| known == name);
             column.and_then(|k| row.get(k)).unwrap_or_default().to_owned()
         };
-        for run in &plan.runs {
-            let before = old.iter().find(|row| row.get(0) == Some(&run.name));
-            let row =
-                sheet.columns.iter().map(|name| before.map_or(String::new(), |r| found(r, name)));
-            let row = row.collect();
-            sheet.rows.push(row);
-            sheet.describe(sheet.rows.len() - 1, run);
+        for (row, run) in plan.runs.iter().enumerate() {
+            sheet.rows.push(vec![String::new(); sheet.columns.len()]);
+            sheet.describe(row, run);
+            if let Some(before) = old.iter().find(|row| row.get(0) == Some(&run.name)) {
+                sheet.recall(row, |name| found(before, name));
+            }
         }
         for row in &old {
             if !plan.runs.iter().any(|run| row.get(0) == Some(&run.name)) {
@@ -124,8 +136,17 @@ impl Sheet {
             self.put(row, &set.key, text);
         }
         self.put(row, "seed", run.seed.to_string());
-        if self.cell(row, "status") != Status::Failed.name() {
-            self.put(row, "status", Status::Waiting.name());
+        self.put(row, "status", Status::Waiting.name());
+    }
+
+    /// Takes over from an earlier table that a run has failed: its folder may not tell. What it
+    /// failed with must still be set; results are read from the folder anew.
+    fn recall(&mut self, row: usize, before: impl Fn(&str) -> String) {
+        let is_set = |name: &&String| !(OUTCOME.contains(&name.as_str()) || is_result(name));
+        let same =
+            self.columns.iter().filter(is_set).all(|name| before(name) == self.cell(row, name));
+        if same && before("status") == Status::Failed.name() {
+            OUTCOME.iter().for_each(|name| self.put(row, name, before(name)));
         }
     }
 
@@ -141,9 +162,12 @@ impl Sheet {
         self.put(row, "status", status.name());
         self.put(row, "exit", exit.map_or(String::new(), |code| code.to_string()));
         self.put(row, "message", message.split_whitespace().collect::<Vec<_>>().join(" "));
-        let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();
-        let summary: Value = serde_json::from_slice(&summary).unwrap_or_default();
-        if status == Status::Waiting || summary.is_null() {
+        let results =
+            self.columns.iter().zip(&mut self.rows[row]).filter(|(name, _)| is_result(name));
+        results.for_each(|(_, cell)| cell.clear());
+        let summary = summary(folder);
+        // What a folder holds of a run that failed may be of another one, or up to the failure.
+        if matches!(status, Status::Waiting | Status::Failed) || summary.is_null() {
             return;
         }
         for (name, pointer) in RESULTS {
