@@ -50,11 +50,15 @@ struct Row {
 }
 
 impl Row {
+    fn is_needed(&self) -> bool {
+        self.seen > 0 && (self.impulse >= NEGLIGIBLE || self.energy >= NEGLIGIBLE)
+    }
+
     fn verdict(&self) -> &'static str {
-        match (self.seen, self.impulse < NEGLIGIBLE && self.energy < NEGLIGIBLE) {
+        match (self.seen, self.is_needed()) {
             (0, _) => "never acted",
-            (_, true) => "negligible: below 1 % of impulse and energy",
-            (_, false) => "needed",
+            (_, false) => "negligible: below 1 % of impulse and energy",
+            (_, true) => "needed",
         }
     }
 }
@@ -76,6 +80,11 @@ fn rows(budget: &Budget, capillary_loss: f64) -> Vec<Row> {
         }
     };
     Acting::ALL.iter().map(row).collect()
+}
+
+/// Whether the table calls a force needed.
+pub(crate) fn is_needed(budget: &Budget, capillary_loss: f64, acting: Acting) -> bool {
+    rows(budget, capillary_loss).iter().any(|row| row.acting == acting && row.is_needed())
 }
 
 /// The budget for `summary.json`, one object a force.
