@@ -47,7 +47,7 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
         None => text += "  liquid       none: a dry run\n",
         Some(liquid) => {
             text += &format!(
-                "  liquid       {} % of the dry mass, {:.3} ml, film {:.1} um; {}, {} drag, {} / {}\n  drag         {}\n",
+                "  liquid       {} % of the dry mass, {:.3} ml: a film of {:.1} um on every sphere\n  laws         capillary {}, normal drag {}, tangential drag {}, rupture {}\n  drag         {}\n",
                 liquid.moisture_percent,
                 1e6 * derived.liquid,
                 1e6 * derived.film,
@@ -76,9 +76,9 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
 fn drag(asked: Drag, implicit: bool) -> &'static str {
     match (asked, implicit) {
         (Drag::Auto, true) => {
-            "implicit: taken from the start of the step its own limit would be below the contacts'"
+            "implicit: explicit drags would need a shorter step than the contacts"
         }
-        (Drag::Auto, false) => "explicit: its own limit is above the contacts'",
+        (Drag::Auto, false) => "explicit: drags allow as long a step as the contacts",
         (_, true) => "implicit, as asked for",
         (_, false) => "explicit, as asked for",
     }
