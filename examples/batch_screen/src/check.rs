@@ -7,7 +7,25 @@ use pendular::transfer::AnyRupture;
 use crate::auto::{AUTO, NONE};
 use crate::error::SceneError;
 use crate::place::Place;
-use crate::scene::{LiquidSpec, Packing, Scene};
+use crate::scene::{LiquidSpec, Scene};
+
+mod extremes;
+mod feed;
+mod ranges;
+
+pub(crate) use extremes::{STEEP, steps};
+pub(crate) use ranges::laws;
+
+/// Most wires of one direction that a sieve can have.
+const MOST_WIRES: f64 = 1e4;
+
+/// A number as people write it: without hundreds of zeros.
+pub(crate) fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 | 1e-5..1e9 => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
 
 /// Names one wrong value.
 struct Check<'a> {
@@ -19,18 +37,24 @@ impl Check<'_> {
         self.scene.fail(key, value, allowed)
     }
 
+    /// Something that is not there.
+    fn missing(&self, key: &str, what: impl std::fmt::Display) -> SceneError {
+        let (place, key) = (self.scene.origin.place(key), key.to_owned());
+        SceneError::Syntax { place, key, message: what.to_string() }
+    }
+
     fn positive(&self, key: &str, value: f64) -> Result<(), SceneError> {
         if value > 0.0 && value.is_finite() {
             return Ok(());
         }
-        Err(self.fail(key, value, "a finite number above 0"))
+        Err(self.fail(key, number(value), "a finite number above 0"))
     }
 
     fn within(&self, key: &str, value: f64, low: f64, high: f64) -> Result<(), SceneError> {
         if (low..=high).contains(&value) {
             return Ok(());
         }
-        Err(self.fail(key, value, format!("{low} to {high}")))
+        Err(self.fail(key, number(value), format!("{low} to {high}")))
     }
 
     /// The name of a law or one of `words`.
@@ -58,9 +82,12 @@ pub(crate) fn check(scene: &Scene) -> Result<(), SceneError> {
     scene.guard.speed.map_or(Ok(()), |speed| check.positive("guard.speed", speed))?;
     crate::assumed::check(scene)?;
     materials(scene, &check)?;
-    classes(scene, &check)?;
     screen(scene, &check)?;
-    scene.liquid.as_ref().map_or(Ok(()), |liquid| wet(liquid, &check))
+    feed::classes(scene, &check)?;
+    feed::packing(scene, &check)?;
+    scene.liquid.as_ref().map_or(Ok(()), |liquid| wet(liquid, &check))?;
+    extremes::check(scene, &check)?;
+    ranges::laws(scene)
 }
 
 /// Checks an interval of time of the command line, s.
@@ -70,7 +97,18 @@ pub(crate) fn interval(option: &str, value: f64) -> Result<(), SceneError> {
     }
     let (place, key) = (Place::option(option), option.trim_start_matches('-').to_owned());
     let allowed = "a finite number above 0".to_owned();
-    Err(SceneError::Value { place, key, value: value.to_string(), allowed })
+    Err(SceneError::Value { place, key, value: number(value), allowed })
+}
+
+/// Checks the interval of ParaView files.
+pub(crate) fn vtk(scene: &Scene, interval: f64) -> Result<(), SceneError> {
+    self::interval("--vtk", interval)?;
+    if scene.time / interval <= extremes::MOST_ROWS {
+        return Ok(());
+    }
+    let allowed = extremes::rows_allowed(scene.time);
+    let (place, key) = (Place::option("--vtk"), "vtk".to_owned());
+    Err(SceneError::Value { place, key, value: number(interval), allowed })
 }
 
 fn materials(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
@@ -109,74 +147,28 @@ fn known_material(
     Err(check.fail(key, format!("`{name}`"), known.join(", ")))
 }
 
-fn classes(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
-    if scene.classes.is_empty() {
-        return Err(check.fail("classes", "an empty list", "at least one size class"));
-    }
-    for (k, class) in scene.classes.iter().enumerate() {
-        let key = |what: &str| format!("classes[{k}].{what}");
-        known_material(scene, check, &key("material"), &class.material)?;
-        check.positive(&key("diameter_mm"), class.diameter_mm)?;
-        check.positive(&key("density"), class.density)?;
-        match (class.mass_g, class.count) {
-            (Some(mass), None) => check.positive(&key("mass_g"), mass)?,
-            (None, Some(_)) => {}
-            (Some(_), Some(_)) => {
-                return Err(check.fail(&key("count"), "both count and mass_g", "one of the two"));
-            }
-            (None, None) if matches!(scene.packing, Packing::File { .. }) => {}
-            (None, None) => {
-                return Err(check.fail(&key("mass_g"), "nothing", "mass_g or count"));
-            }
-        }
-        if scene.classes[..k].iter().any(|other| other.name == class.name) {
-            return Err(check.fail(&key("name"), &class.name, "a name of its own"));
-        }
-    }
-    let walls: Vec<&String> = [&scene.screen.material]
-        .into_iter()
-        .chain(scene.housing.iter().map(|housing| &housing.material))
-        .chain(scene.parts.iter().map(|part| &part.material))
-        .collect();
-    for (a, first) in scene.classes.iter().enumerate() {
-        let others = scene.classes[a..].iter().map(|c| &c.material);
-        for other in others.chain(walls.iter().copied()) {
-            let found = scene.contacts.iter().any(|pair| {
-                let [x, y] = &pair.between;
-                (x == &first.material && y == other) || (y == &first.material && x == other)
-            });
-            if !found && scene.material(other).is_some() {
-                let missing = format!("no pair {} with {other}", first.material);
-                return Err(check.fail("contacts", missing, "an entry for every pair in use"));
-            }
-        }
-    }
-    packing(scene, check)
-}
-
-fn packing(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
-    match &scene.packing {
-        Packing::Random { solid_fraction, clearance_mm } => {
-            check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
-            check.within("packing.clearance_mm", *clearance_mm, 0.0, 1e4)
-        }
-        Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
-            check.within("packing.solid_fraction", *solid_fraction, 1e-3, 0.35)?;
-            let lowest = 0.5 * scene.screen.wire_diameter_mm + scene.motion.reach_mm()[2];
-            let highest = scene.screen.height_mm;
-            check.within("packing.floor_height_mm", *floor_height_mm, lowest, highest)?;
-            check.positive("packing.settle_at_most", *settle_at_most)
-        }
-        Packing::File { .. } => Ok(()),
-    }
-}
-
 fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     let screen = &scene.screen;
     known_material(scene, check, "screen.material", &screen.material)?;
     check.positive("screen.aperture_mm", screen.aperture_mm)?;
     check.positive("screen.wire_diameter_mm", screen.wire_diameter_mm)?;
     check.positive("screen.diameter_mm", screen.diameter_mm)?;
+    if screen.aperture_mm + screen.wire_diameter_mm > screen.diameter_mm {
+        let value = format!("{} mm", number(screen.aperture_mm));
+        let allowed = format!(
+            "with its wire at most screen.diameter_mm = {} mm, so that a wire lies in the frame",
+            number(screen.diameter_mm)
+        );
+        return Err(check.fail("screen.aperture_mm", value, allowed));
+    }
+    if MOST_WIRES * (screen.aperture_mm + screen.wire_diameter_mm) < screen.diameter_mm {
+        let value = format!("{} mm", number(screen.aperture_mm));
+        let allowed = format!(
+            "at most {MOST_WIRES} wires across screen.diameter_mm = {} mm",
+            number(screen.diameter_mm)
+        );
+        return Err(check.fail("screen.aperture_mm", value, allowed));
+    }
     check.positive("screen.height_mm", screen.height_mm)?;
     check.positive("screen.collect_below_mm", screen.collect_below_mm)?;
     for (k, many) in screen.frame_elements.iter().enumerate() {
@@ -194,6 +186,11 @@ fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     }
     for (k, part) in scene.parts.iter().enumerate() {
         known_material(scene, check, &format!("parts[{k}].material"), &part.material)?;
+        let name = format!("parts[{k}].name");
+        feed::name(check, &name, &part.name)?;
+        if scene.parts[..k].iter().any(|other| other.name == part.name) {
+            return Err(check.fail(&name, &part.name, "a name of its own"));
+        }
         check.positive(&format!("parts[{k}].scale"), part.scale)?;
         if let Some(half) = part.half_side_mm {
             check.positive(&format!("parts[{k}].half_side_mm"), half)?;

@@ -4,6 +4,22 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+/// More threads are taken for a mistake.
+pub(crate) const MOST_THREADS: usize = 1024;
+
+/// What is no number; which numbers are allowed is said where they are used.
+fn threads(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| format!("allowed: 1 to {MOST_THREADS}"))
+}
+
+fn from_one(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "allowed: a whole number from 1".into())
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("allowed: a whole number from 0 to {}", u64::MAX))
+}
+
 /// Moist batch screening with the discrete element method.
 ///
 /// Without a command it runs the built-in scene `demo`.
@@ -41,6 +57,12 @@ pub(crate) enum Command {
         /// Takes another value for a key of the scene, as in `run`.
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<String>,
+        /// Simulated time, s, instead of the scene's.
+        #[arg(long, value_name = "S", allow_hyphen_values = true)]
+        time: Option<f64>,
+        /// Time step, s, instead of the scene's.
+        #[arg(long, value_name = "S", allow_hyphen_values = true)]
+        dt: Option<f64>,
     },
     /// Proposes the smallest scene that gives the same result, with evidence from short runs.
     Needs {
@@ -48,16 +70,16 @@ pub(crate) enum Command {
         scene: String,
         /// Largest difference that does not matter: of the fraction retained and of the shares of
         /// the liquid; also the largest share of the impulse of a force that may be left out.
-        #[arg(long, value_name = "X", default_value_t = 0.02, allow_negative_numbers = true)]
+        #[arg(long, value_name = "X", default_value_t = 0.02, allow_hyphen_values = true)]
         tolerance: f64,
         /// Simulated time of each pilot run, s.
-        #[arg(long, value_name = "S", default_value_t = 0.5, allow_negative_numbers = true)]
+        #[arg(long, value_name = "S", default_value_t = 0.5, allow_hyphen_values = true)]
         time: f64,
         /// Folder of settled beds, to be used again; `out/beds` where it is left out.
         #[arg(long, value_name = "DIR")]
         beds: Option<PathBuf>,
         /// Threads. All cores where it is left out.
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
         threads: Option<usize>,
     },
     /// Runs a scene.
@@ -100,10 +122,10 @@ pub(crate) struct RunArgs {
     #[arg(default_value = "demo")]
     pub(crate) scene: String,
     /// Simulated time, s, instead of the scene's.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) time: Option<f64>,
     /// Time step, s, instead of the scene's.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) dt: Option<f64>,
     /// Folder for the results, which must not hold a run. `out/NAME` where it is left out, or if
     /// that is taken the first free one of `out/NAME-2`, `out/NAME-3`, ...
@@ -116,7 +138,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) beds: Option<PathBuf>,
     /// Seed of the packing, instead of the scene's.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
     /// Takes another value for a key of the scene, such as `liquid.moisture_percent=10` or
     /// `classes[0].count=50`; may be given more than once.
@@ -126,7 +148,7 @@ pub(crate) struct RunArgs {
     #[arg(long)]
     pub(crate) allow_unstable: bool,
     /// Writes ParaView files into the folder `paraview`, every S seconds of simulated time.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) vtk: Option<f64>,
     #[command(flatten)]
     pub(crate) how: How,
@@ -144,13 +166,20 @@ pub(crate) struct SweepArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) beds: Option<PathBuf>,
     /// Runs side by side; the cores are shared among them.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = from_one,
+        allow_hyphen_values = true
+    )]
     pub(crate) jobs: usize,
     /// Prints the commands for a cluster's job array, or one a line, instead of running.
     #[arg(long, value_enum, conflicts_with_all = ["only", "gather"])]
     pub(crate) emit: Option<Emit>,
     /// Runs the N-th run only, from 1, and leaves the table alone.
-    #[arg(long, value_name = "N", conflicts_with = "gather")]
+    #[arg(long, value_name = "N", conflicts_with = "gather", value_parser = from_one,
+        allow_hyphen_values = true)]
     pub(crate) only: Option<usize>,
     /// Runs nothing: makes the table of what there is.
     #[arg(long)]
@@ -172,10 +201,10 @@ pub(crate) enum Emit {
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct How {
     /// Threads; results do not depend on them. All cores where it is left out.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads, allow_hyphen_values = true)]
     pub(crate) threads: Option<usize>,
     /// Wall time between checkpoints, s.
-    #[arg(long, value_name = "S", default_value_t = 300.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = 300.0, allow_hyphen_values = true)]
     pub(crate) checkpoint_every: f64,
     /// Tells no progress, only the results at the end.
     #[arg(long)]

@@ -10,7 +10,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use crate::build::{self, Built, Source};
 use crate::checkpoint::Checkpoint;
-use crate::cli::{How, RunArgs};
+use crate::cli::{How, MOST_THREADS, RunArgs};
 use crate::document::{self, Set};
 use crate::error::{RunError, SceneError};
 use crate::lock::Lock;
@@ -20,9 +20,6 @@ use crate::run::{self, Job};
 use crate::say;
 use crate::scene::Scene;
 use crate::{auto, builtin, folder, limits, needs, page, progress, report};
-
-/// More threads are taken for a mistake.
-const MOST_THREADS: usize = 1024;
 
 /// Lists the built-in scenes.
 pub(crate) fn list() -> Result<(), RunError> {
@@ -81,7 +78,7 @@ pub(crate) fn text(name: &str) -> Result<String, SceneError> {
         return Err(unknown(name));
     }
     let unreadable = |source| SceneError::Unreadable { file: path.to_path_buf(), source };
-    fs::read_to_string(path).map_err(unreadable)
+    document::decode(fs::read(path).map_err(unreadable)?, path)
 }
 
 fn load(name: &str, sets: &[Set]) -> Result<Loaded, SceneError> {
@@ -104,9 +101,17 @@ fn unsettled<'a>(base: &'a Path, stop: &'a AtomicBool) -> Source<'a> {
 }
 
 /// Checks a scene and says what follows from it.
-pub(crate) fn check(name: &str, set: &[String]) -> Result<(), RunError> {
-    let Loaded { scene, base, .. } = load(name, &sets(set)?)?;
+pub(crate) fn check(
+    name: &str,
+    set: &[String],
+    time: Option<f64>,
+    dt: Option<f64>,
+) -> Result<(), RunError> {
+    let set = set.to_vec();
+    let args = RunArgs { scene: name.to_owned(), set, time, dt, ..RunArgs::default() };
+    let Loaded { scene, base, .. } = asked(&args)?;
     let built = build::build(&scene, &unsettled(&base, &AtomicBool::new(false)))?;
+    crate::check::steps(&scene, built.settings.time_step)?;
     say::line(format_args!("{}", report::header(&scene, &built)));
     say::text(&limits::text(&limits::table(&scene, &built), built.settings.time_step));
     let limit = build::limit(&built);
@@ -174,7 +179,7 @@ fn asked(args: &RunArgs) -> Result<Loaded, SceneError> {
         scene.origin.give(key, Place::option(option));
     }
     crate::check::check(scene)?;
-    args.vtk.map_or(Ok(()), |interval| crate::check::interval("--vtk", interval))?;
+    args.vtk.map_or(Ok(()), |interval| crate::check::vtk(scene, interval))?;
     Ok(loaded)
 }
 
@@ -191,6 +196,7 @@ pub(crate) fn run_until(
     // Refused before the bed is settled, which can take minutes.
     crate::check::interval("--checkpoint-every", args.how.checkpoint_every)?;
     let loose = build::build(&scene, &unsettled(&base, &stop))?;
+    crate::check::steps(&scene, loose.settings.time_step)?;
     if !args.allow_unstable {
         within_limit(&scene, &loose)?;
     }
@@ -204,6 +210,7 @@ pub(crate) fn run_until(
     };
     let decided = auto::decide(&scene, &source)?;
     auto::apply(&mut scene, &decided);
+    crate::check::laws(&scene)?;
     let mut built = build::build(&scene, &source)?;
     built.settings.allow_unstable = args.allow_unstable;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })

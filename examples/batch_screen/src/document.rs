@@ -1,5 +1,7 @@
 //! TOML documents, and values set in them from outside.
 
+use std::path::Path;
+
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
@@ -7,14 +9,46 @@ use crate::error::SceneError;
 use crate::place::{Origin, Place, column_at, line_at};
 use crate::unclosed::{self, Unclosed};
 
+/// The text of a file; where it is none, the line from which on it is none.
+pub(crate) fn decode(bytes: Vec<u8>, file: &Path) -> Result<String, SceneError> {
+    // UTF-16 and binary files may be UTF-8 by their bytes, but no text has a zero in it.
+    let valid = std::str::from_utf8(&bytes).map_or_else(|e| e.valid_up_to(), str::len);
+    let end = bytes.iter().position(|&b| b == 0).unwrap_or(valid).min(valid);
+    if end == bytes.len() {
+        return Ok(String::from_utf8(bytes).unwrap_or_default());
+    }
+    let line = Some(bytes[..end].iter().filter(|&&b| b == b'\n').count() + 1);
+    Err(SceneError::NotText { place: Place { file: file.to_path_buf(), line } })
+}
+
 /// Reads a document; what is wrong is named by key and place.
 pub(crate) fn read<T: DeserializeOwned>(text: &str, origin: &Origin) -> Result<T, SceneError> {
     let document = toml::Deserializer::parse(text).map_err(|e| syntax(text, origin, &e))?;
     serde_path_to_error::deserialize(document).map_err(|e| {
         let message = e.inner().message().trim_end();
         let key = key_of(&e.path().to_string(), message);
-        SceneError::Syntax { place: origin.place(&key), key, message: plain(message) }
+        let of_words = ["wanted string or table", "variant identifier"];
+        let message = match of_words.iter().any(|end| message.ends_with(end)) {
+            true => words_of::<T>(text, &key),
+            false => plain(message),
+        };
+        SceneError::Syntax { place: origin.place(&key), key, message }
     })
+}
+
+/// What is said of a value that should be one of a few words.
+fn words_of<T: DeserializeOwned>(text: &str, key: &str) -> String {
+    let words = allowed_words::<T>(text, key).unwrap_or_else(|| "a text".into());
+    format!("invalid type; allowed: {words}")
+}
+
+/// The words that a key takes: what is said of one that it does not know.
+fn allowed_words<T: DeserializeOwned>(text: &str, key: &str) -> Option<String> {
+    let mut root = Value::Table(text.parse().ok()?);
+    let (value, place) = (Value::String("?".into()), Place::option(""));
+    put(&mut root, &Set { key: key.to_owned(), value, place }).ok()?;
+    let message = plain(T::deserialize(root).err()?.message());
+    Some(message.strip_prefix("unknown variant `?`; allowed: ")?.trim_end().to_owned())
 }
 
 fn syntax(text: &str, origin: &Origin, error: &toml::de::Error) -> SceneError {
@@ -23,7 +57,20 @@ fn syntax(text: &str, origin: &Origin, error: &toml::de::Error) -> SceneError {
     place.line = Some(line_at(text, at));
     let source = text.lines().nth(line_at(text, at) - 1).unwrap_or_default();
     let key = source.split('=').next().unwrap_or_default().trim().to_owned();
+    let twice = error.message().starts_with("duplicate key");
+    if let Some(table) = twice.then(|| single(source)).flatten() {
+        let message = format!(
+            "`[{table}]` is there twice; allowed: once, or `[[{table}]]` for each entry of a list"
+        );
+        return SceneError::Syntax { place, key: table.to_owned(), message };
+    }
     SceneError::Syntax { place, key, message: format!("column {}: {what}", column_at(text, at)) }
+}
+
+/// The name in a line that begins a single table.
+fn single(line: &str) -> Option<&str> {
+    let name = line.trim().strip_prefix('[')?.split(']').next()?.trim();
+    (!name.starts_with('[')).then_some(name)
 }
 
 /// From which byte on a text is no TOML, and what is wrong there. A bracket that is never closed is
@@ -63,15 +110,33 @@ fn plain(message: &str) -> String {
         ("allowed: u64", "allowed: a whole number from 0"),
         ("allowed: u32", "allowed: a whole number from 0"),
         ("allowed: a string", "allowed: a text"),
+        ("allowed: path string", "allowed: a text"),
+        ("allowed: a boolean", "allowed: true or false"),
+        ("allowed: an array of length", "allowed: a list of"),
         ("allowed: a sequence", "allowed: a list"),
         ("allowed: a map", "allowed: a table"),
         ("allowed: internally tagged enum Packing", "allowed: a table with the key `from`"),
     ];
     let told = types.iter().fold(message, |m, (from, to)| m.replace(from, to));
+    let told = no_type_names(&told);
+    if told == "floating-point number overflowed" {
+        return format!("{told}; allowed: a number up to {:e}", f64::MAX);
+    }
     if told.starts_with("missing field") {
         format!("{told}; allowed: a value for it")
     } else {
         told
+    }
+}
+
+/// Types have names in the program only: a `struct Screen` is a table.
+fn no_type_names(message: &str) -> String {
+    match message.split_once("allowed: struct ") {
+        Some((before, name)) => {
+            let rest = name.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+            format!("{before}allowed: a table{}", rest.trim_start_matches(" with 1 element"))
+        }
+        None => message.to_owned(),
     }
 }
 
@@ -229,6 +294,14 @@ mod tests {
         assert_eq!(assumed(&["t={x=1}"]), 2);
         assert_eq!(assumed(&["t={b=1}"]), 3);
         assert_eq!(assumed(&["l=[]"]), 3);
+    }
+
+    #[test]
+    fn a_table_that_is_there_twice_may_have_been_meant_as_a_list() {
+        let text = "a = 1\n[l]\nb = 1\n[l]\nb = 2\n";
+        let said = read::<Table>(text, &Origin::new(Path::new("a.toml"), text)).unwrap_err();
+        let wanted = "a.toml, line 4: key `l`: `[l]` is there twice; allowed: once, or `[[l]]` for";
+        assert!(said.to_string().starts_with(wanted), "{said}");
     }
 
     #[test]

@@ -9,6 +9,8 @@ use crate::place::Place;
 pub(crate) enum SceneError {
     #[error("cannot read {}: {source}", file.display())]
     Unreadable { file: PathBuf, source: std::io::Error },
+    #[error("{place}: is no UTF-8 text; allowed: TOML saved as UTF-8")]
+    NotText { place: Place },
     #[error("cannot write {}: {source}", file.display())]
     Unwritable { file: PathBuf, source: std::io::Error },
     #[error("{place}: key `{key}`: {message}")]
@@ -41,6 +43,11 @@ pub(crate) enum SceneError {
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error("the particles do not fit: {message}")]
     Packing { message: String },
+    #[error(
+        "{first} overlaps {second} by {:.4} mm at the start; allowed: up to {:.4} mm",
+        1e3 * overlap, 1e3 * allowed
+    )]
+    StartOverlap { first: String, second: String, overlap: f64, allowed: f64 },
     #[error("walls: {0}")]
     Walls(#[from] pendular::walls::WallError),
     #[error("particles: {0}")]
@@ -122,6 +129,7 @@ impl RunError {
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Settling { .. }) => 130,
+            Self::Scene(SceneError::Unreadable { .. } | SceneError::Unwritable { .. }) => 1,
             Self::Scene(_) | Self::Exists { .. } => 2,
             Self::HoldsRun { .. } | Self::Busy { .. } | Self::SceneOfUser { .. } => 2,
             Self::Guard { .. } | Self::Unstable { .. } => 3,

@@ -1,10 +1,11 @@
 //! Stops a run whose state cannot be: cheap looks at every batch of steps, none per pair.
 
 use glam::DVec3;
-use pendular::MeshWalls;
 use pendular::dem::{Boundary, Partner, Simulation, SimulationError};
+use pendular::pair::OutOfRange;
+use pendular::{MeshWalls, WetError};
 
-use crate::build::apparatus::collection;
+use crate::build::apparatus::{collection, group};
 use crate::makeup::Makeup;
 use crate::scene::{Escapes, Scene};
 use crate::screening::{Passage, Screening, displacement};
@@ -29,6 +30,10 @@ pub(crate) struct Guard {
     aperture: Option<f64>,
     names: Vec<String>,
     class: Vec<u16>,
+    /// Names of the parts.
+    parts: Vec<String>,
+    /// Capillary and rupture law between spheres, and with walls.
+    laws: [String; 2],
 }
 
 /// What is wrong with a state: what and who, and what to do.
@@ -41,6 +46,8 @@ pub(crate) struct Fault {
 
 const STEP: &str = "a shorter time step or a higher contact.stiffness is the usual cure; where the \
                     state is meant, raise the key";
+const OUTSIDE: &str = "a bridge outside a law's range goes on with liquid.outside_range = \
+                       \"extrapolate\"";
 const HOLE: &str = "close the gap in the walls or raise screen.height_mm, or take a shorter time \
                     step; guard.escapes = \"count\" goes on";
 
@@ -60,6 +67,8 @@ impl Guard {
             aperture: built_in("wires").then_some(1e-3 * scene.screen.aperture_mm),
             names: scene.classes.iter().map(|class| class.name.clone()).collect(),
             class: class.to_vec(),
+            parts: walls.0.parts().iter().map(|part| part.name.clone()).collect(),
+            laws: laws(scene),
         }
     }
 
@@ -73,6 +82,16 @@ impl Guard {
         format!("particle {id} ({})", class.map_or("of no class", String::as_str))
     }
 
+    /// A body in words.
+    pub(crate) fn body(&self, body: Partner) -> String {
+        match body {
+            Partner::Particle(id) => self.who(id),
+            Partner::Wall(part) => {
+                self.parts.get(part as usize).map_or("a wall", |name| group(name)).to_owned()
+            }
+        }
+    }
+
     /// An error of the simulation, as a fault.
     pub(crate) fn broken(&self, error: &SimulationError, now: f64) -> Fault {
         match error {
@@ -81,12 +100,35 @@ impl Guard {
                 what: format!("position or velocity of {} is not finite", self.who(*id)),
                 advice: STEP,
             },
-            other => Fault {
-                time: now,
-                what: other.to_string(),
-                advice: "a bridge outside a law's range goes on with liquid.outside_range = \
-                         \"extrapolate\"",
-            },
+            SimulationError::Term { time, source } => {
+                let wet = source.downcast_ref();
+                let what = wet.map_or_else(|| source.to_string(), |wet| self.refused(wet));
+                Fault { time: *time, what, advice: OUTSIDE }
+            }
+            other => Fault { time: now, what: other.to_string(), advice: OUTSIDE },
+        }
+    }
+
+    /// A bridge that a law has refused.
+    fn refused(&self, error: &WetError) -> String {
+        let (first, second, volume) = match error {
+            WetError::Law { first, second, volume, .. }
+            | WetError::Transfer { first, second, volume, .. } => (*first, *second, *volume),
+            other => return other.to_string(),
+        };
+        let bridge = format!(
+            "a bridge of {:.3e} mm3 between {} and {}",
+            1e9 * volume,
+            self.who(first),
+            self.body(second)
+        );
+        match error {
+            WetError::Law { source, .. } => {
+                let laws = &self.laws[usize::from(matches!(second, Partner::Wall(_)))];
+                format!("{bridge} lies outside the range of its laws, {laws}: {}", degrees(source))
+            }
+            WetError::Transfer { source, .. } => format!("{bridge}: {source}; key liquid.transfer"),
+            _ => bridge,
         }
     }
 
@@ -135,13 +177,7 @@ impl Guard {
             100.0 * self.overlap_share
         );
         let Some((now, pair)) = simulation.deepest() else { return most };
-        let second = match pair.second {
-            Partner::Particle(id) => self.who(id),
-            Partner::Wall(part) => {
-                let parts = simulation.boundary().0.parts();
-                parts.get(part as usize).map_or("a wall", |part| &part.name).to_owned()
-            }
-        };
+        let second = self.body(pair.second);
         let at = simulation.particles().iter().find(|one| one.id == pair.first);
         let at = at.map_or(String::new(), |one| format!(" at {}", place(one.position)));
         let now = 100.0 * now;
@@ -172,6 +208,23 @@ impl Guard {
             }
         }
     }
+}
+
+fn laws(scene: &Scene) -> [String; 2] {
+    let Some(liquid) = &scene.liquid else { return Default::default() };
+    [
+        format!("capillary {}, rupture {}", liquid.capillary, liquid.rupture),
+        format!("capillary_wall {}, rupture_wall {}", liquid.capillary_wall, liquid.rupture_wall),
+    ]
+}
+
+/// What is out of range, its angles in degrees as in scenes.
+fn degrees(wrong: &OutOfRange) -> String {
+    if !wrong.quantity.contains("angle") {
+        return wrong.to_string();
+    }
+    let [value, low, high] = [wrong.value, wrong.allowed.0, wrong.allowed.1].map(f64::to_degrees);
+    format!("{} = {value:.1} degrees; allowed: {low:.1} to {high:.1} degrees", wrong.quantity)
 }
 
 fn place(x: DVec3) -> String {

@@ -13,6 +13,7 @@ mod document;
 mod effective;
 mod error;
 mod folder;
+mod forms;
 mod frames;
 mod guard;
 mod limits;
@@ -20,6 +21,7 @@ mod liquid_final;
 mod lock;
 mod makeup;
 mod needs;
+mod notes;
 mod packing;
 mod page;
 mod pilot;
@@ -56,7 +58,7 @@ fn main() -> ExitCode {
         Command::List => commands::list(),
         Command::Show { name } => commands::show(&name),
         Command::Sample { file, sweep, overwrite } => commands::sample(file, sweep, overwrite),
-        Command::Check { scene, set } => commands::check(&scene, &set),
+        Command::Check { scene, set, time, dt } => commands::check(&scene, &set, time, dt),
         Command::Needs { scene, tolerance, time, beds, threads } => {
             commands::needs(&scene, tolerance, time, beds.as_deref(), threads)
         }

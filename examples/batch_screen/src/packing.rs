@@ -1,5 +1,6 @@
 //! Where the particles are at the start: placed at random without overlap, or read from a file.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use glam::DVec3;
@@ -30,6 +31,8 @@ pub(crate) struct Space {
 
 /// Tries for each particle before the space is made a little higher.
 const TRIES: usize = 2_000;
+/// Cells of the grid that finds neighbours, at most.
+const MOST_CELLS: f64 = 1e7;
 /// Gap kept between particles, as a share of the smallest radius.
 const APART: f64 = 1e-3;
 
@@ -126,8 +129,14 @@ struct Cells {
 
 impl Cells {
     fn new(radius: f64, height: f64, size: f64) -> Self {
-        let across = (2.0 * radius / size).ceil() as usize + 1;
-        let counts = [across, across, (height / size).ceil() as usize + 1];
+        let along = |length: f64, size: f64| (length / size).ceil() + 1.0;
+        let mut size = size;
+        // Coarse cells find the same: a few small spheres in a wide frame would fill the memory.
+        while along(2.0 * radius, size).powi(2) * along(height, size) > MOST_CELLS {
+            size *= 2.0;
+        }
+        let across = along(2.0 * radius, size) as usize;
+        let counts = [across, across, along(height, size) as usize];
         let held = vec![Vec::new(); counts.iter().product()];
         Self { low: -radius, size, counts, held }
     }
@@ -185,7 +194,7 @@ pub(crate) fn from_file(
         let found = header.iter().collect::<Vec<_>>().join(",");
         return Err(fail(1, format!("the header is `{found}`, it must be `{}`", wanted.join(","))));
     }
-    let mut placed = Vec::new();
+    let (mut placed, mut ids) = (Vec::new(), BTreeSet::new());
     for record in reader.records() {
         let record = record.map_err(|e| {
             let line = e.position().map_or(0, csv::Position::line);
@@ -197,6 +206,10 @@ pub(crate) fn from_file(
             let value = text.parse::<f64>().ok().filter(|v| v.is_finite());
             value.ok_or_else(|| fail(line, format!("{} = `{text}` is no finite number", wanted[k])))
         };
+        let id = record.get(0).unwrap_or("");
+        if !ids.insert(id.to_owned()) {
+            return Err(fail(line, format!("id {id} is there twice; allowed: an id of its own")));
+        }
         let position = DVec3::new(number(1)?, number(2)?, number(3)?);
         let (radius, density) = (number(4)?, number(5)?);
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * b;
@@ -249,6 +262,12 @@ mod tests {
         let one = random(&radii, &counts, &space(0.1), 1).unwrap();
         assert_eq!(one, random(&radii, &counts, &space(0.1), 1).unwrap());
         assert_ne!(one, random(&radii, &counts, &space(0.1), 2).unwrap());
+    }
+
+    #[test]
+    fn a_few_small_spheres_in_a_wide_space_need_no_more_memory() {
+        let wide = Space { radius: 10.0, ..space(0.1) };
+        assert_eq!(random(&[1e-6], &[20], &wide, 1).unwrap().len(), 20);
     }
 
     #[test]

@@ -68,7 +68,10 @@ pub(crate) fn header(scene: &Scene, built: &Built) -> String {
     for (key, value) in assumed::list(scene) {
         text += &format!("  assumed      {key} = {value}\n");
     }
-    text += &format!("  time step    {:.3e} s", built.settings.time_step);
+    text += &crate::notes::text(scene, built);
+    let time_step = built.settings.time_step;
+    let steps = (scene.time / time_step).round();
+    text += &format!("  time step    {time_step:.3e} s, {steps} steps to t = {} s", scene.time);
     text
 }
 

@@ -381,8 +381,10 @@ impl Scene {
 
     /// Reads a scene from a text whose values were given at `origin`.
     pub(crate) fn read(text: &str, origin: Origin) -> Result<Self, SceneError> {
+        let table = document::read(text, &origin)?;
+        crate::forms::check(&table, &origin)?;
         let mut scene: Self = document::read(text, &origin)?;
-        scene.document = document::read(text, &origin)?;
+        scene.document = table;
         scene.origin = origin;
         crate::check::check(&scene)?;
         Ok(scene)

@@ -167,6 +167,42 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
     ("density = 1358", "density = inf", "", &["classes[0].density", "inf"]),
     ("count = 16", "mass_g = -1", "", &["classes[0].mass_g"]),
     ("count = 16", "count = -1", "", &["classes[0].count", "a whole number"]),
+    ("count = 16", "count = 0", "", &["classes[0].count", "a whole number from 1"]),
+    ("count = 16", "count = 9000000000", "", &["classes[0].count", "spheres", "1e8"]),
+    ("count = 16", "mass_g = 0.01", "", &["classes[0].mass_g", "8.888e-2 g, the mass of one"]),
+    ("name = \"5 mm\"", "name = \"\"", "", &["classes[0].name", "a name for the tables"]),
+    ("name = \"5 mm\"", "name = \"total\"", "", &["classes[0].name", "not `total`"]),
+    ("name = \"5 mm\"", "name = \"5,mm\"", "", &["classes[0].name", "commas"]),
+    ("name = \"5 mm\"", "name = \"5\\nmm\"", "", &["classes[0].name", "line ends"]),
+    ("diameter_mm = 10\n", "diameter_mm = 320\n", "", &["classes[2]", "does not fit into the"]),
+    ("density = 1358", "density = 1e999", "", &["classes[0].density", "allowed: a number up to"]),
+    ("time_step = 5e-6", "time_step = 1e-300", "", &["`time_step`", "1e12 steps, a time step"]),
+    ("time = 0.08", "time = 1e300", "", &["`time`", "2.0e305 steps", "1e12 steps, 5.0e6 s"]),
+    ("output_interval = 0.01", "output_interval = 1e-99", "", &["output_interval", "8.0e-10 s"]),
+    (
+        "stiffness = 1e5",
+        "stiffness = 1",
+        "",
+        &["contact.stiffness", "7 N/m", "guard.overlap_share"],
+    ),
+    ("seed = 1\n", "seed = 1\ngravity = [0, 0, 9.81]\n", "gravity", &["gravity[2]", "below 0"]),
+    ("aperture_mm = 8", "aperture_mm = 500", "", &["screen.aperture_mm", "500 mm", "40 mm"]),
+    (
+        "aperture_mm = 8\nwire_diameter_mm = 2",
+        "aperture_mm = 1e-9\nwire_diameter_mm = 1e-9",
+        "",
+        &["screen.aperture_mm", "10000 wires"],
+    ),
+    (
+        "0.05, 1.0]",
+        "0.05, 500]",
+        "amplitude_mm = [",
+        &["motion.amplitude_mm[2]", "500 mm", "120 mm"],
+    ),
+    ("[0.08, 0.05,", "[30, 0.05,", "amplitude_mm = [", &["motion.amplitude_mm", "below 20 mm"]),
+    ("wires = \"cylinders\"", "wires = true", "", &["screen.wires", "`cylinders` or `mesh`"]),
+    ("from = \"bin\"", "from = 3", "", &["packing.from", "`random`, `bin`, `file`"]),
+    ("[liquid]", "[[liquid]]", "", &["`liquid`", "allowed: one table, `[liquid]`"]),
     ("count = 16", "", "[[classes]]", &["classes[0].mass_g", "count"]),
     ("count = 16", "count = 16\nmass_g = 1", "", &["classes[0]", "one of the two"]),
     ("name = \"7 mm\"", "name = \"5 mm\"", "", &["classes[1].name"]),
@@ -248,7 +284,14 @@ fn options_of_the_command_line_change_the_scene_and_are_named() {
         ),
         ("--set", "packing=3", "a table with the key `from`"),
         ("--set", "time_step=1e-3", "`run --allow-unstable` goes above"),
+        ("--set", "screen=5", "key `screen`: invalid type: integer `5`; allowed: a table"),
+        ("--set", "classes={}", "allowed: `[[classes]]`, for each entry"),
         ("--time", "-1", "command line, --time: key `time`"),
+        ("--time", "1e300", "command line, --time: key `time`"),
+        ("--dt", "-1e-6", "command line, --dt: key `time_step`"),
+        ("--vtk", "1e-99", "command line, --vtk: key `vtk`"),
+        ("--threads", "-1", "allowed: 1 to 1024"),
+        ("--seed", "-1", "allowed: a whole number from 0"),
         ("--dt", "1e-3", "command line, --dt: key `time_step`"),
     ] {
         let done = run(folder.path(), &["run", "small.toml", option, value]);
@@ -263,6 +306,8 @@ fn options_of_the_command_line_change_the_scene_and_are_named() {
     let again = run(folder.path(), &["resume", "o"]);
     assert!(again.status.success(), "{}", text(&again.stderr));
 }
+
+const FILE: &str = "[packing]\nfrom = \"file\"\npath = \"bed.csv\"\n\n";
 
 #[test]
 fn the_scene_as_it_was_run_is_kept_and_runs_the_same() {
@@ -325,10 +370,13 @@ fn missing_and_broken_files() {
     let good = small().replace("\"packing.floor_height_mm\", ", "");
     let start = good.find("[packing]").unwrap();
     let end = good.find("[screen]").unwrap();
+    // One class, whose spheres the file of the packing counts.
+    let second = good.match_indices("[[classes]]").nth(1).unwrap().0;
+    let classes = good[..second].replace("count = 16\n", "");
+    let with_file = |set: &str| format!("{classes}{set}{FILE}{}", &good[end..]);
     let with =
         |packing: &str, rest: &str| format!("{}{packing}{}{rest}", &good[..start], &good[end..]);
-    let file = "[packing]\nfrom = \"file\"\npath = \"bed.csv\"\n\n";
-    fs::write(folder.path().join("s.toml"), with(file, "")).unwrap();
+    fs::write(folder.path().join("s.toml"), with_file("")).unwrap();
     let missing = run(folder.path(), &["check", "s.toml"]);
     assert_eq!(missing.status.code(), Some(2));
     assert!(text(&missing.stderr).contains("bed.csv"));
@@ -339,6 +387,10 @@ fn missing_and_broken_files() {
         ("id,x,y,z,radius,density\n1,0,0,nan,0.0025,1358\n", "z = `nan`"),
         ("id,x,y,z,radius,density\n1,0,0,1e308,0.0025,1358\n", "outside the frame"),
         ("id,x,y,z,radius,density\n", "no particle"),
+        (
+            "id,x,y,z,radius,density\n1,0,0,0.05,0.0025,1358\n1,0,0,0.06,0.0025,1358\n",
+            "bed.csv, line 3: id 1 is there twice",
+        ),
     ] {
         fs::write(folder.path().join("bed.csv"), bed).unwrap();
         let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
@@ -347,8 +399,11 @@ fn missing_and_broken_files() {
     let overlapping = "id,x,y,z,radius,density\n1,0,0,0.05,0.0025,1358\n2,0,0,0.054,0.0025,1358\n";
     fs::write(folder.path().join("bed.csv"), overlapping).unwrap();
     let said = text(&run(folder.path(), &["run", "s.toml"]).stderr);
-    assert!(said.contains("overlaps") && said.contains("s.toml, line "), "{said}");
+    assert!(said.contains("overlaps particle ") && said.contains("s.toml, line "), "{said}");
     assert!(!folder.path().join("out/s").exists(), "a run that could not begin leaves nothing");
+    fs::write(folder.path().join("s.toml"), with_file("count = 3\n")).unwrap();
+    let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
+    assert!(said.contains("classes[0].count") && said.contains("the 2 that"), "{said}");
     fs::write(folder.path().join("broken.stl"), "solid x\nfacet nonsense").unwrap();
     let part = "\n[[parts]]\nname = \"frame\"\nstl = \"broken.stl\"\nmaterial = \"steel\"\n";
     let random = "[packing]\nfrom = \"random\"\nsolid_fraction = 0.2\nclearance_mm = 2\n\n";

@@ -57,6 +57,7 @@ pub(crate) fn place(
             let wrong = |source| scene.at("packing.path", source);
             let placed = packing::from_file(&file, &radii, &densities).map_err(wrong)?;
             inside(scene, &file, &placed).map_err(wrong)?;
+            complete(scene, &counts, &placed)?;
             Ok(placed)
         }
         Packing::Random { solid_fraction, clearance_mm } => {
@@ -159,6 +160,33 @@ fn inside(scene: &Scene, file: &Path, placed: &[Placed]) -> Result<(), SceneErro
             fail(k as u64 + 2, format!("{} lies outside the frame: {allowed}", placed[k].position))
         }
     }
+}
+
+/// A file holds as many spheres of each class as the scene says, where it does, and at least one.
+fn complete(scene: &Scene, counts: &[u64], placed: &[Placed]) -> Result<(), SceneError> {
+    for (k, class) in scene.classes.iter().enumerate() {
+        let held = placed.iter().filter(|one| usize::from(one.class) == k).count() as u64;
+        let (what, asked) = match (class.count, class.mass_g) {
+            (Some(_), _) => ("count", Some(counts[k])),
+            (None, Some(_)) => ("mass_g", Some(counts[k])),
+            (None, None) => ("name", None),
+        };
+        let key = format!("classes[{k}].{what}");
+        if held == 0 {
+            let allowed = "classes of which it holds spheres";
+            return Err(scene.fail(
+                &key,
+                "a class of which the packing's file holds none",
+                allowed,
+            ));
+        }
+        if let Some(asked) = asked.filter(|&asked| asked != held) {
+            let allowed =
+                format!("the {held} that the packing's file holds, or neither count nor mass_g");
+            return Err(scene.fail(&key, format!("{asked} spheres"), allowed));
+        }
+    }
+    Ok(())
 }
 
 fn counts(scene: &Scene, classes: &[Class]) -> Vec<u64> {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use pendular::dem::Simulation;
+use pendular::dem::{Partner, Simulation, SimulationError};
 use pendular::{Budget, MeshWalls};
 
 use super::{Job, Run, part_names};
@@ -30,8 +30,9 @@ pub(super) fn begin<'a, T: Makeup>(
     from: Option<Checkpoint>,
 ) -> Result<Run<'a, T>, RunError> {
     let Some(from) = from else {
+        let guard = Guard::new(scene, &walls, &derived.class);
         let simulation = Simulation::new(particles, term, walls, settings)
-            .map_err(|e| scene.at("packing", e))?;
+            .map_err(|e| not_begun(scene, &guard, e))?;
         return Run::new(scene, simulation, derived, job);
     };
     let Checkpoint { core, wet, .. } = from.clone();
@@ -50,6 +51,20 @@ pub(super) fn begin<'a, T: Makeup>(
     }
     let simulation = Simulation::restore(particles, term, walls, settings, snapshot);
     Run::resume(scene, simulation.map_err(SceneError::from)?, derived, job, from)
+}
+
+/// Why a run cannot begin; overlaps with a part from a file are that part's.
+fn not_begun(scene: &Scene, guard: &Guard, error: SimulationError) -> SceneError {
+    let SimulationError::StartOverlap { first, second, overlap, allowed } = error else {
+        return scene.at("packing", error);
+    };
+    let [first, second] = [Partner::Particle(first), second].map(|body| guard.body(body));
+    let part = scene.parts.iter().position(|part| part.name == second);
+    let (key, second) = match part {
+        Some(k) => (format!("parts[{k}]"), format!("part `{second}`")),
+        None => ("packing".into(), second),
+    };
+    scene.at(&key, SceneError::StartOverlap { first, second, overlap, allowed })
 }
 
 impl<'a, T: Makeup> Run<'a, T> {

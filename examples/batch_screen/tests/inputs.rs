@@ -1,0 +1,135 @@
+//! What the program says of its input before it runs, beside the errors of single values.
+
+#![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
+
+mod common;
+
+use std::fs;
+
+use common::{run, small, text};
+
+const LOOSE: &str = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+const REFUSE: &str = "liquid.outside_range=refuse";
+
+#[test]
+fn a_check_tells_steps_and_what_is_hardly_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), small()).unwrap();
+    for (options, wanted) in [
+        (&["--time", "1", "--dt", "1e-6"][..], "1.000e-6 s, 1000000 steps to t = 1 s"),
+        (&["--set", "screen.aperture_mm=4"], "no class can pass: the smallest has 5 mm"),
+        (&["--set", "screen.aperture_mm=25"], "all classes fall through at once"),
+        (&["--set", "output_interval=1e-6"], "output_interval = 1e-6 s is below the time step"),
+        (&["--set", "contact.stiffness=100"], "contact.stiffness = 100 N/m is low"),
+        (&["--set", "gravity=[0, 0, 0]", "--set", LOOSE], "nothing falls onto the screen"),
+        (&["--set", "liquid.moisture_percent=0"], "liquid.moisture_percent is 0"),
+    ] {
+        let done = run(folder.path(), &[&["check", "s.toml"], options].concat());
+        let said = text(&done.stdout);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        assert!(said.contains(wanted), "`{wanted}` is not in: {said}");
+        assert_eq!(said.matches("  note  ").count(), usize::from(options[0] == "--set"), "{said}");
+    }
+    let above = run(folder.path(), &["check", "s.toml", "--dt", "1e-3"]);
+    assert_eq!(above.status.code(), Some(2));
+    assert!(text(&above.stderr).contains("command line, --dt"), "{}", text(&above.stderr));
+}
+
+#[test]
+fn files_that_are_no_text_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let utf16: Vec<u8> = small().encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for (bytes, line) in [
+        (b"title = \"a\"\ntime = 1 # \xe4\n".to_vec(), 2),
+        (utf16.clone(), 1),
+        ([&[0xff, 0xfe], &utf16[..]].concat(), 1),
+    ] {
+        fs::write(folder.path().join("s.toml"), bytes).unwrap();
+        let done = run(folder.path(), &["check", "s.toml"]);
+        let wanted = format!("s.toml, line {line}: is no UTF-8 text; allowed: TOML saved as UTF-8");
+        assert!(text(&done.stderr).contains(&wanted), "{}", text(&done.stderr));
+        assert_eq!(done.status.code(), Some(2));
+    }
+    // What cannot be read at all is no mistake in a scene.
+    fs::create_dir(folder.path().join("d.toml")).unwrap();
+    assert_eq!(run(folder.path(), &["check", "d.toml"]).status.code(), Some(1));
+}
+
+#[test]
+fn a_part_from_a_file_is_told_and_named_where_it_overlaps_the_bed() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = "\n[[parts]]\nname = \"lid\"\nstl = \"lid.stl\"\nmaterial = \"steel\"\n";
+    let scene = format!("{}{part}", small());
+    let line = scene[..scene.find("[[parts]]").unwrap()].matches('\n').count() + 1;
+    fs::write(folder.path().join("s.toml"), &scene).unwrap();
+    let lid = "solid lid\nfacet normal 0 0 1\nouter loop\nvertex -20 -20 10\nvertex 20 -20 10\n\
+               vertex 0 20 10\nendloop\nendfacet\nendsolid lid\n";
+    fs::write(folder.path().join("lid.stl"), lid).unwrap();
+    let told = "part         lid: 1 triangle from lid.stl, 40.00 x 40.00 x 0.00 mm, x -20.00 to \
+                20.00, y -20.00 to 20.00, z 10.00 to 10.00 mm";
+    let check = run(folder.path(), &["check", "s.toml"]);
+    assert!(text(&check.stdout).contains(told), "{}", text(&check.stdout));
+    let done = run(folder.path(), &["run", "s.toml", "--set", LOOSE, "--time", "0.001"]);
+    assert!(text(&done.stdout).contains(told), "{}", text(&done.stdout));
+    let (said, place) = (text(&done.stderr), format!("s.toml, line {line}: key `parts[0]`"));
+    assert!(said.contains(&place), "{said}");
+    assert!(said.contains("overlaps part `lid` by ") && said.contains("allowed: up to"), "{said}");
+    assert_eq!(done.status.code(), Some(2));
+    // Two of one name would be one.
+    fs::write(folder.path().join("s.toml"), format!("{scene}{part}")).unwrap();
+    let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
+    assert!(said.contains("key `parts[1].name`: lid is not allowed"), "{said}");
+}
+
+#[test]
+fn laws_that_refuse_are_held_against_angles_and_radii_before_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), small()).unwrap();
+    for (sets, wanted) in [
+        (
+            &["materials.POM.contact_angle_deg=85"][..],
+            "key `liquid.capillary`: `tabulated` at materials.POM.contact_angle_deg = 85 degrees is \
+             not allowed; allowed: contact angles of 0 to 60 degrees",
+        ),
+        (&["liquid.capillary_wall=rabinovich"], "`liquid.capillary_wall`: `rabinovich` at"),
+        (&["liquid.capillary=rabinovich-plane"], "allowed: a sphere and a wall"),
+        (
+            &[
+                "liquid.capillary=soulie",
+                "materials.POM.contact_angle_deg=10",
+                "classes[2].diameter_mm=11",
+            ],
+            "`soulie` at a ratio of radii of 2.20 is not allowed",
+        ),
+    ] {
+        let mut args = vec!["check", "s.toml", "--set", REFUSE];
+        sets.iter().for_each(|set| args.extend(["--set", *set]));
+        let done = run(folder.path(), &args);
+        let said = text(&done.stderr);
+        assert!(said.contains(wanted), "`{wanted}` is not in: {said}");
+        assert_eq!(done.status.code(), Some(2));
+        // Without bridges, or where they may lie outside, the same is fine.
+        for free in ["liquid.moisture_percent=0", "liquid.outside_range=extrapolate"] {
+            let done = run(folder.path(), &[&args[..], &["--set", free]].concat());
+            assert!(done.status.success(), "{}", text(&done.stderr));
+        }
+    }
+}
+
+#[test]
+fn a_bridge_that_a_law_refuses_is_told_with_its_bodies_and_the_law() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), small()).unwrap();
+    let mut args = vec!["run", "s.toml", "--time", "0.001"];
+    for set in [LOOSE, REFUSE, "liquid.capillary=lambert", "liquid.moisture_percent=60"] {
+        args.extend(["--set", set]);
+    }
+    let done = run(folder.path(), &args);
+    let said = text(&done.stderr);
+    assert_eq!(done.status.code(), Some(3), "{said}");
+    for word in ["between particle ", " mm) and particle ", "capillary lambert", "V/R^3"] {
+        assert!(said.contains(word), "`{word}` is not in: {said}");
+    }
+    let message = said.lines().find(|line| line.contains("the run stopped at")).unwrap();
+    assert_eq!(message.matches("t = ").count(), 1, "{message}");
+}
