@@ -19,6 +19,9 @@ pub(crate) use ranges::laws;
 /// Most wires of one direction that a sieve can have.
 const MOST_WIRES: f64 = 1e4;
 
+/// Longest length of a sieve, mm.
+const LONGEST: f64 = 1e4;
+
 /// A number as people write it: without hundreds of zeros.
 pub(crate) fn number(value: f64) -> String {
     match value.abs() {
@@ -48,6 +51,14 @@ impl Check<'_> {
             return Ok(());
         }
         Err(self.fail(key, number(value), "a finite number above 0"))
+    }
+
+    /// Above 0, and not so large that it can only be a mistake.
+    fn up_to(&self, key: &str, value: f64, most: f64) -> Result<(), SceneError> {
+        if value > 0.0 && value <= most {
+            return Ok(());
+        }
+        Err(self.fail(key, number(value), format!("above 0, at most {most}")))
     }
 
     fn within(&self, key: &str, value: f64, low: f64, high: f64) -> Result<(), SceneError> {
@@ -150,9 +161,9 @@ fn known_material(
 fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
     let screen = &scene.screen;
     known_material(scene, check, "screen.material", &screen.material)?;
-    check.positive("screen.aperture_mm", screen.aperture_mm)?;
-    check.positive("screen.wire_diameter_mm", screen.wire_diameter_mm)?;
-    check.positive("screen.diameter_mm", screen.diameter_mm)?;
+    check.up_to("screen.aperture_mm", screen.aperture_mm, LONGEST)?;
+    check.up_to("screen.wire_diameter_mm", screen.wire_diameter_mm, LONGEST)?;
+    check.up_to("screen.diameter_mm", screen.diameter_mm, LONGEST)?;
     if screen.aperture_mm + screen.wire_diameter_mm > screen.diameter_mm {
         let value = format!("{} mm", number(screen.aperture_mm));
         let allowed = format!(
@@ -169,8 +180,8 @@ fn screen(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
         );
         return Err(check.fail("screen.aperture_mm", value, allowed));
     }
-    check.positive("screen.height_mm", screen.height_mm)?;
-    check.positive("screen.collect_below_mm", screen.collect_below_mm)?;
+    check.up_to("screen.height_mm", screen.height_mm, LONGEST)?;
+    check.up_to("screen.collect_below_mm", screen.collect_below_mm, LONGEST)?;
     for (k, many) in screen.frame_elements.iter().enumerate() {
         check.within(&format!("screen.frame_elements[{k}]"), f64::from(*many), 1.0, 1e3)?;
     }
@@ -218,9 +229,9 @@ fn motion(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError> {
 
 fn wet(liquid: &LiquidSpec, check: &Check<'_>) -> Result<(), SceneError> {
     check.within("liquid.moisture_percent", liquid.moisture_percent, 0.0, 100.0)?;
-    check.positive("liquid.density", liquid.density)?;
-    check.positive("liquid.surface_tension", liquid.surface_tension)?;
-    check.positive("liquid.viscosity", liquid.viscosity)?;
+    check.within("liquid.density", liquid.density, 1.0, 1e5)?;
+    check.up_to("liquid.surface_tension", liquid.surface_tension, 1e3)?;
+    check.up_to("liquid.viscosity", liquid.viscosity, 1e6)?;
     check.within("liquid.roughness_share", liquid.roughness_share, 1e-9, 1.0)?;
     let laws = AnyCapillary::ALL.map(|law| law.name());
     check.name("liquid.capillary", &liquid.capillary, &laws, &[AUTO])?;

@@ -78,6 +78,10 @@ impl Guard {
     }
 
     fn who(&self, id: u32) -> String {
+        if id == u32::MAX {
+            // A sum over all of them has told.
+            return "a particle".into();
+        }
         let class = self.class.get(id as usize).and_then(|&k| self.names.get(usize::from(k)));
         format!("particle {id} ({})", class.map_or("of no class", String::as_str))
     }

@@ -186,6 +186,9 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
         &["contact.stiffness", "7 N/m", "guard.overlap_share"],
     ),
     ("seed = 1\n", "seed = 1\ngravity = [0, 0, 9.81]\n", "gravity", &["gravity[2]", "below 0"]),
+    ("height_mm = 120", "height_mm = 1e300", "", &["screen.height_mm", "1e300", "at most 10000"]),
+    ("density = 1000", "density = 1e-300", "", &["liquid.density", "1e-300", "1 to 100000"]),
+    ("= 0.07275", "= 1e300", "surface_tension", &["liquid.surface_tension", "at most 1000"]),
     ("aperture_mm = 8", "aperture_mm = 500", "", &["screen.aperture_mm", "500 mm", "40 mm"]),
     (
         "aperture_mm = 8\nwire_diameter_mm = 2",

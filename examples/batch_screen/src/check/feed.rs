@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Check, known_material, number};
+use super::{Check, LONGEST, known_material, number};
 use crate::error::SceneError;
 use crate::scene::{Packing, Scene, SizeClass};
 
@@ -39,8 +39,8 @@ pub(super) fn classes(scene: &Scene, check: &Check<'_>) -> Result<(), SceneError
         let key = |what: &str| format!("classes[{k}].{what}");
         name(check, &key("name"), &class.name)?;
         known_material(scene, check, &key("material"), &class.material)?;
-        check.positive(&key("diameter_mm"), class.diameter_mm)?;
-        check.positive(&key("density"), class.density)?;
+        check.up_to(&key("diameter_mm"), class.diameter_mm, LONGEST)?;
+        check.up_to(&key("density"), class.density, 1e6)?;
         amount(scene, check, k)?;
         fits(scene, check, k)?;
         if scene.classes[..k].iter().any(|other| other.name == class.name) {
