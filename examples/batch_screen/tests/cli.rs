@@ -357,7 +357,9 @@ fn files_of_a_scene_are_found_again_from_the_folder_of_its_run() {
     fs::write(folder.path().join("in/bed.csv"), bed).unwrap();
     let scene = small().replace("\"packing.floor_height_mm\", ", "");
     fs::write(folder.path().join("in/s.toml"), scene).unwrap();
-    let from = ["--set", "packing={from=\"file\", path=\"bed.csv\"}", "--time", "0.001"];
+    let packing = "packing={from=\"file\", path=\"bed.csv\"}";
+    let classes = "classes=[{name=\"5 mm\", material=\"POM\", diameter_mm=5, density=1358}]";
+    let from = ["--set", packing, "--set", classes, "--time", "0.001"];
     let first = run(folder.path(), &[&["run", "in/s.toml", "--out", "a"], &from[..]].concat());
     assert!(first.status.success(), "{}", text(&first.stderr));
     let again = run(folder.path(), &["run", "a/scene.toml", "--out", "b"]);
