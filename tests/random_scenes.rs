@@ -305,9 +305,9 @@ fn check<T: Holds>(mut run: Simulation<T, NoWalls>) -> Result<(), TestCaseError>
 }
 
 proptest! {
-    // Twelve in the suite; PROPTEST_CASES asks for more.
+    // So many in the suite; PROPTEST_CASES asks for more.
     #![proptest_config(ProptestConfig {
-        cases: std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(12),
+        cases: std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(100),
         max_shrink_iters: 60,
         failure_persistence: None,
         ..ProptestConfig::default()
