@@ -40,7 +40,7 @@ pub(crate) fn write(
     let head = format!(
         "{FIRST}: {}, with all that the command line and the program decided.\n\
          # Run it again with: batch_screen run {NAME}{}\n\n",
-        job.source,
+        job.source.replace(char::is_control, " "),
         options(scene, job, allow_unstable)
     );
     fs::write(&path, head + &values).map_err(fail)

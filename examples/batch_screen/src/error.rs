@@ -79,7 +79,7 @@ pub(crate) enum RunError {
     )]
     HoldsRun { folder: PathBuf },
     #[error(
-        "{} is being written by another run; allowed: another --out, or the same once that run has \
+        "{} is being written by another run; allowed: another folder, or this one once that run has \
          ended",
         folder.display()
     )]

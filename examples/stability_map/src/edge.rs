@@ -2,11 +2,9 @@
 
 use crate::rig::{Fault, Scene};
 
-/// Kinetic energy over that of the disturbance at a short step which no stable scene reaches: a
-/// disturbance at 0.99 of the edge beats by a factor of 50 at most.
+/// Kinetic energy over the largest at a short step which no stable scene reaches: a disturbance at
+/// 0.99 of the edge beats by a factor of 50 at most.
 const GROWTH: f64 = 100.0;
-/// Steps at which the disturbance itself is measured.
-const BASE: u64 = 400;
 /// The edge is sought between these multiples of the predicted limit.
 const SPAN: (f64, f64) = (0.25, 8.0);
 /// Halvings of that interval, in logarithms: 3 ‰.
@@ -61,7 +59,9 @@ pub(crate) fn find(
     let limit = scene.limit_now();
     let packed = scene.limit().time_step;
     let (mut low, mut high) = (SPAN.0 * limit.time_step, SPAN.1 * limit.time_step);
-    let enough = GROWTH * liveliest(&mut noisy(low)?, BASE, f64::INFINITY);
+    // For as long as it is watched at the limit: a sphere that slips into a gap does so at any step.
+    let base = (steps as f64 / SPAN.0) as u64;
+    let enough = GROWTH * liveliest(&mut noisy(low)?, base, f64::INFINITY);
     for _ in 0..HALVINGS {
         let middle = (low * high).sqrt();
         if liveliest(&mut noisy(middle)?, steps, enough) <= enough {

@@ -229,8 +229,9 @@ fn fnv(bytes: &[u8]) -> u64 {
 }
 
 fn make_folder(file: &Path) -> Result<(), SceneError> {
-    let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
-    fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).map_err(fail)
+    let folder = file.parent().unwrap_or(Path::new("."));
+    let fail = |source| SceneError::Unwritable { file: folder.to_path_buf(), source };
+    fs::create_dir_all(folder).map_err(fail)
 }
 
 /// Writes a bed beside its place and moves it there, so that no half file is ever read.

@@ -20,12 +20,27 @@ pub(super) fn spheres(class: &SizeClass) -> Option<f64> {
     by_mass.or(class.count.map(|count| count as f64))
 }
 
+/// Headers and rows that the tables have besides those of classes and parts.
+const TAKEN: [&str; 9] = [
+    "total",
+    "time_s",
+    "all",
+    "bridges",
+    "blocked",
+    "apertures",
+    "particles_above",
+    "cut_size_mm",
+    "imperfection",
+];
+
 /// Names become headers of tables: none may break them or mean something else there.
 pub(super) fn name(check: &Check<'_>, key: &str, name: &str) -> Result<(), SceneError> {
     let breaks = |c: char| c.is_control() || matches!(c, ',' | ';' | '"');
-    if name.is_empty() || name.trim() != name || name == "total" || name.contains(breaks) {
+    let begins = |word: &&str| name.starts_with(*word);
+    let taken = TAKEN.contains(&name) || ["above ", "fines ", "retained "].iter().any(begins);
+    if name.is_empty() || name.trim() != name || taken || name.contains(breaks) {
         let allowed = "a name for the tables, without commas, semicolons, quotes, line ends or outer \
-                       spaces, and not `total`";
+                       spaces, and none that a column or row of theirs has, such as `total`";
         return Err(check.fail(key, format!("{name:?}"), allowed));
     }
     Ok(())
