@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::page::PageError;
 use crate::place::Place;
 
 /// What is wrong with a scene.
@@ -95,7 +96,7 @@ pub(crate) enum RunError {
     #[error(transparent)]
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error(transparent)]
-    Page(#[from] crate::page::PageError),
+    Page(#[from] PageError),
     #[error(transparent)]
     ParaView(#[from] crate::vtk::VtkError),
     #[error("stopped as asked; go on with: batch_screen resume {}", folder.display())]
@@ -132,6 +133,7 @@ impl RunError {
             Self::Scene(SceneError::Unreadable { .. } | SceneError::Unwritable { .. }) => 1,
             Self::Scene(_) | Self::Exists { .. } => 2,
             Self::HoldsRun { .. } | Self::Busy { .. } | Self::SceneOfUser { .. } => 2,
+            Self::Page(PageError::Column { .. } | PageError::Nothing) => 2,
             Self::Guard { .. } | Self::Unstable { .. } => 3,
             Self::Stopped { .. } | Self::SweepStopped { .. } => 130,
             _ => 1,
