@@ -65,6 +65,8 @@ pub(crate) struct Checkpoint {
     pub(crate) limit: f64,
     /// What was decided for laws that the scene leaves open.
     pub(crate) decided: Vec<(String, String)>,
+    /// Checksum of the file of each of the scene's `parts`.
+    pub(crate) parts: Vec<u32>,
     /// Bytes of each table.
     pub(crate) tables: Vec<u64>,
     pub(crate) rows: u64,

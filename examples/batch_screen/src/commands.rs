@@ -268,6 +268,13 @@ pub(crate) fn resume_until(
     let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
     built.settings.allow_unstable = checkpoint.allow_unstable;
     let finished = checkpoint.is_finished();
+    let same = |k: &usize| built.derived.parts.get(*k) == checkpoint.parts.get(*k);
+    if let Some(k) = (0..scene.parts.len()).find(|k| !finished && !same(k)) {
+        let stl = scene.parts[k].stl.display();
+        let message =
+            format!("{stl} is not what it was when the run began; allowed: the same file");
+        return Err(scene.at(&format!("parts[{k}].stl"), SceneError::PartFile { message }).into());
+    }
     match style {
         Style::People | Style::Quiet if finished => say::line(format_args!(
             "{} has finished already, at t = {:.4} s: there was nothing to be done",

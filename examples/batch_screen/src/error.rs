@@ -40,6 +40,8 @@ pub(crate) enum SceneError {
          goes on from there"
     )]
     Settling { time: f64 },
+    #[error("{message}")]
+    PartFile { message: String },
     #[error(transparent)]
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error("the particles do not fit: {message}")]

@@ -171,7 +171,7 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
     ("count = 16", "count = 9000000000", "", &["classes[0].count", "spheres", "1e8"]),
     ("count = 16", "mass_g = 0.01", "", &["classes[0].mass_g", "8.888e-2 g, the mass of one"]),
     ("name = \"5 mm\"", "name = \"\"", "", &["classes[0].name", "a name for the tables"]),
-    ("name = \"5 mm\"", "name = \"total\"", "", &["classes[0].name", "not `total`"]),
+    ("name = \"5 mm\"", "name = \"total\"", "", &["classes[0].name", "such as `total`"]),
     ("name = \"5 mm\"", "name = \"5,mm\"", "", &["classes[0].name", "commas"]),
     ("name = \"5 mm\"", "name = \"5\\nmm\"", "", &["classes[0].name", "line ends"]),
     ("diameter_mm = 10\n", "diameter_mm = 320\n", "", &["classes[2]", "does not fit into the"]),

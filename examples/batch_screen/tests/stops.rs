@@ -96,6 +96,13 @@ fn spheres_that_leave_through_walls_stop_the_run() {
         assert_eq!(done.status.code(), Some(3), "{out}: {said}");
         assert!(said.contains(wanted) && said.contains(" mm)"), "{out}: {said}");
     }
+    // A run does not go on with another part than it began with.
+    fs::write(folder.path().join("far.stl"), triangle.replace("-500", "-400")).unwrap();
+    let resumed = program().current_dir(&folder).args(["resume", "out-of-it"]).output().unwrap();
+    let said = text(&resumed.stderr);
+    assert_eq!(resumed.status.code(), Some(2), "{said}");
+    assert!(said.contains("`parts[0].stl`: far.stl is not what it was"), "{said}");
+    fs::write(folder.path().join("far.stl"), triangle).unwrap();
     // The same, where it is meant.
     let count = ["--set", LOOSE, "--set", far, "--set", aside, "--set", "guard.escapes=count"];
     let done = faulty(folder.path(), "counted", &count);

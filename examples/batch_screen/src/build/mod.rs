@@ -49,6 +49,8 @@ pub(crate) struct Derived {
     pub(crate) class: Vec<u16>,
     /// Whether drags are solved for at the end of the step.
     pub(crate) implicit: bool,
+    /// Checksum of the file of each of the scene's `parts`.
+    pub(crate) parts: Vec<u32>,
 }
 
 /// Builds a scene, its bed settled if it is to be.
@@ -97,6 +99,7 @@ fn around(
     };
     let loads = loads(&classes, &contact, wet.as_ref());
     derived.implicit = is_implicit(scene, &classes, &loads);
+    derived.parts = apparatus::checksums(scene, base)?;
     let limit = Limit::packing(&classes, &resisted(loads, derived.implicit)).time_step;
     let settings = settings(scene, limit, threads);
     Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
@@ -148,6 +151,7 @@ fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
         film: film_thickness(classes, &counts, liquid),
         class,
         implicit: false,
+        parts: Vec::new(),
         counts,
         masses,
         solid_mass,
