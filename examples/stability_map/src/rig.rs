@@ -67,6 +67,10 @@ impl Scene {
         either!(self, simulation => simulation.particles())
     }
 
+    pub(crate) fn gravity(&self) -> DVec3 {
+        either!(self, simulation => simulation.settings().gravity)
+    }
+
     pub(crate) fn step(&self) -> u64 {
         either!(self, simulation => simulation.step())
     }
