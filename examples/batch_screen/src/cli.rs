@@ -16,6 +16,23 @@ fn from_one(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "allowed: a whole number from 1".into())
 }
 
+/// What `compare` writes over, so that it cannot be a scene or a table.
+fn page(name: &str) -> Result<PathBuf, String> {
+    ending(name, "html")
+}
+
+fn drawing(name: &str) -> Result<PathBuf, String> {
+    ending(name, "svg")
+}
+
+fn ending(name: &str, wanted: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(name);
+    if path.extension().is_some_and(|end| end.eq_ignore_ascii_case(wanted)) {
+        return Ok(path);
+    }
+    Err(format!("allowed: a name that ends in .{wanted}; a file of that name is replaced"))
+}
+
 fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("allowed: a whole number from 0 to {}", u64::MAX))
 }
@@ -104,10 +121,10 @@ pub(crate) enum Command {
         #[arg(required = true)]
         folders: Vec<PathBuf>,
         /// The page.
-        #[arg(long, default_value = "compare.html", value_name = "FILE")]
+        #[arg(long, default_value = "compare.html", value_name = "FILE", value_parser = page)]
         out: PathBuf,
         /// Draws the fraction retained over time into an SVG file too.
-        #[arg(long, value_name = "FILE")]
+        #[arg(long, value_name = "FILE", value_parser = drawing)]
         svg: Option<PathBuf>,
         /// What the drawing shows: `total` or the name of a class.
         #[arg(long, value_name = "NAME", default_value = "total", requires = "svg")]

@@ -17,11 +17,15 @@ const OF_A_RUN: [&str; 3] = ["checkpoint.bin", "summary.json", "retained.csv"];
 pub(crate) fn refuse(asked: Option<&Path>, overwrite: bool) -> Result<(), RunError> {
     let Some(folder) = asked else { return Ok(()) };
     lock::refuse(folder)?;
-    let holds_run = OF_A_RUN.iter().any(|name| folder.join(name).exists());
-    if holds_run && !overwrite {
+    let holds = holds_run(folder);
+    if holds && !overwrite {
         return Err(RunError::HoldsRun { folder: folder.to_path_buf() });
     }
-    effective::refuse(folder, holds_run)
+    effective::refuse(folder, holds)
+}
+
+fn holds_run(folder: &Path) -> bool {
+    OF_A_RUN.iter().any(|name| folder.join(name).exists())
 }
 
 /// The folder of a run that is about to begin: the one that was asked for, or else the usual one, or
@@ -35,7 +39,8 @@ pub(crate) fn of_run(
     refuse(asked, overwrite)?;
     match asked {
         Some(folder) => Ok(folder.to_path_buf()),
-        None if overwrite => {
+        // What is no run, such as the folder of kept beds, is none to be replaced.
+        None if overwrite && holds_run(usual) => {
             refuse(Some(usual), overwrite)?;
             Ok(usual.to_path_buf())
         }

@@ -6,7 +6,7 @@ use std::fs;
 
 mod common;
 
-use common::{program, run, small, summary, text};
+use common::{TABLES, run, small, summary, text};
 
 #[test]
 fn lists_shows_and_checks_every_built_in_scene() {
@@ -417,96 +417,6 @@ fn missing_and_broken_files() {
     assert!(said.contains("broken.stl"), "{said}");
 }
 
-/// Files whose bytes must not depend on whether a run was stopped.
-const TABLES: [&str; 10] = [
-    "retained.csv",
-    "partition.csv",
-    "pegging.csv",
-    "energy.csv",
-    "passages.csv",
-    "replay.csv",
-    "liquid.csv",
-    "liquid_shared.csv",
-    "liquid_final.csv",
-    "bridges.csv",
-];
-
-#[test]
-fn a_killed_run_goes_on_to_the_same_bytes() {
-    killed("liquid.viscosity=0.001");
-}
-
-/// A liquid as viscous as this one makes the drags implicit, and they remember their impulses.
-#[test]
-fn a_killed_run_with_implicit_drags_goes_on_to_the_same_bytes() {
-    let summary = killed("liquid.viscosity=10.0");
-    assert_eq!(summary["drag"], "implicit");
-}
-
-fn killed(set: &str) -> serde_json::Value {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("small.toml"), small()).unwrap();
-    let out = ["run", "small.toml", "--vtk", "0.03", "--set", set, "--out"];
-    let whole = run(folder.path(), &[&out[..], &["whole"]].concat());
-    assert!(whole.status.success(), "{}", text(&whole.stderr));
-    // Killed at three moments, the first before any row; each time it is taken up where it was.
-    let quick = ["--checkpoint-every", "0.02", "--threads", "1"];
-    let mut args = [&out[..], &["cut"]].concat();
-    for rows in [0, 3, 6] {
-        let mut child = program()
-            .current_dir(folder.path())
-            .args(&args)
-            .args(quick)
-            .stdout(std::process::Stdio::null())
-            .stderr(std::process::Stdio::null())
-            .spawn()
-            .unwrap();
-        let table = folder.path().join("cut/retained.csv");
-        let written = || fs::read_to_string(&table).map_or(0, |t| t.lines().count());
-        // Killed before its first checkpoint, a run has nothing to go on from.
-        let started = || folder.path().join("cut/checkpoint.bin").exists();
-        while (written() <= rows || !started()) && child.try_wait().unwrap().is_none() {
-            std::thread::sleep(std::time::Duration::from_millis(3));
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
-        // What a killed run has left can be looked at.
-        let page = run(folder.path(), &["report", "cut"]);
-        assert!(page.status.success(), "{}", text(&page.stderr));
-        args = vec!["resume", "cut"];
-    }
-    let last = run(folder.path(), &["resume", "cut"]);
-    assert!(last.status.success(), "{}", text(&last.stderr));
-    // After that there is nothing left to do, which is said, however little else is.
-    for quiet in [&["resume", "cut"][..], &["resume", "cut", "--quiet"]] {
-        let last = run(folder.path(), quiet);
-        let said = text(&last.stdout);
-        assert!(last.status.success(), "{}", text(&last.stderr));
-        assert!(said.starts_with("cut has finished already, at t = 0.0800 s"), "{said}");
-        assert!(said.contains("results in cut"), "{said}");
-    }
-    for table in TABLES {
-        let read = |run: &str| fs::read(folder.path().join(run).join(table)).unwrap();
-        assert!(read("whole") == read("cut"), "{table} differs");
-    }
-    let frames = |run: &str| {
-        let list = fs::read_dir(folder.path().join(run).join("paraview")).unwrap();
-        let mut all: Vec<_> = list
-            .map(|entry| entry.unwrap())
-            .map(|entry| (entry.file_name(), fs::read(entry.path()).unwrap()))
-            .collect();
-        all.sort();
-        all
-    };
-    assert!(frames("whole").len() > 6 && frames("whole") == frames("cut"));
-    for key in ["liquid_imbalance", "least_limit_s", "largest_overlap", "fraction_retained"] {
-        let said = |run: &str| summary(&folder.path().join(run))[key].clone();
-        assert_eq!(said("whole"), said("cut"), "{key}");
-    }
-    assert!(folder.path().join("cut/report.html").exists());
-    summary(&folder.path().join("cut"))
-}
-
 /// Every file of a folder with its bytes.
 fn contents(folder: &std::path::Path) -> Vec<(std::ffi::OsString, Vec<u8>)> {
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
@@ -553,6 +463,18 @@ fn a_run_takes_the_place_of_another_only_when_asked_to() {
     assert_eq!(summary(&at("small"))["time_s"], 0.004);
     assert!(!series.exists() && !at("small-3").exists());
     assert_eq!(fs::read_dir(at("small").join("paraview")).unwrap().count(), 0);
+    // A folder that holds no run is none to be replaced, nor is a file that is no page.
+    fs::copy(at("small").join("scene.toml"), folder.path().join("beds.toml")).unwrap();
+    fs::create_dir_all(at("beds")).unwrap();
+    let beds = contents(&at("beds"));
+    assert!(run(folder.path(), &["run", "beds.toml", "--overwrite"]).status.success());
+    assert!(contents(&at("beds")) == beds && at("beds-2").join("summary.json").exists());
+    let scene = fs::read(folder.path().join("beds.toml")).unwrap();
+    for option in ["--out", "--svg"] {
+        let refused = run(folder.path(), &["compare", "out/small", option, "beds.toml"]);
+        assert_eq!(refused.status.code(), Some(2), "{}", text(&refused.stderr));
+    }
+    assert_eq!(fs::read(folder.path().join("beds.toml")).unwrap(), scene);
 }
 
 #[test]
@@ -576,35 +498,4 @@ fn a_viscous_scene_runs_at_the_step_of_its_contacts() {
     let unknown = run(folder.path(), &["check", "small.toml", "--set", "liquid.drag=partly"]);
     let said = text(&unknown.stderr);
     assert!(said.contains("partly") && said.contains("implicit"), "{said}");
-}
-
-#[test]
-fn checkpoints_that_cannot_be_used_say_why() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("small.toml"), small()).unwrap();
-    let none = run(folder.path(), &["resume", "nowhere"]);
-    assert_eq!(none.status.code(), Some(1));
-    assert!(text(&none.stderr).contains("no checkpoint to go on from"));
-    let nan = ["run", "small.toml", "--checkpoint-every", "nan"];
-    assert_eq!(run(folder.path(), &nan).status.code(), Some(2));
-    let done = run(folder.path(), &["run", "small.toml", "--time", "0.01", "--out", "a"]);
-    assert!(done.status.success(), "{}", text(&done.stderr));
-    let file = folder.path().join("a/checkpoint.bin");
-    let good = fs::read(&file).unwrap();
-    for (change, wanted) in [
-        (vec![1, 2, 3], "no checkpoint of this program"),
-        (good[..good.len() - 9].to_vec(), "checksum"),
-        ([&good[..8], &[9, 0, 0, 0], &good[12..]].concat(), "version 9"),
-    ] {
-        fs::write(&file, change).unwrap();
-        let said = text(&run(folder.path(), &["resume", "a"]).stderr);
-        assert!(said.contains(wanted), "{said}");
-    }
-    // A table that is missing is told before any other is touched.
-    fs::write(&file, &good).unwrap();
-    fs::remove_file(folder.path().join("a/bridges.csv")).unwrap();
-    let retained = fs::read(folder.path().join("a/retained.csv")).unwrap();
-    let said = text(&run(folder.path(), &["resume", "a"]).stderr);
-    assert!(said.contains("bridges.csv"), "{said}");
-    assert_eq!(fs::read(folder.path().join("a/retained.csv")).unwrap(), retained);
 }
