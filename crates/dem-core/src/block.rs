@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use crate::PairTerm;
 use crate::chunk::{List, Note, Roll, Sum};
-use crate::implicit::{Colours, Impulse, Inverse, Links, Met, middle};
+use crate::implicit::{Colours, Impulse, Inverse, Links, Met, Remembered};
+use crate::Resist;
 use crate::lane::{Lane, Vector};
 use crate::lists::Entry;
 use crate::pairs::{Columns, Geometry, Loads, Pairs, Picked};
@@ -39,6 +40,8 @@ pub(crate) struct Out<'a> {
     pub(crate) colours: &'a mut Colours,
     /// Where an implicit term keeps the pairs that act: inside, and across the border.
     pub(crate) links: [&'a mut Links; 2],
+    /// What the impulses do that the pairs inside remember.
+    pub(crate) pushed: &'a mut [Sum],
 }
 
 /// Where and how some blocks of pairs are and what acts in them.
@@ -49,12 +52,19 @@ pub(crate) struct Out<'a> {
 pub(crate) struct Stage<L> {
     geometry: [Geometry<L>; BLOCKS],
     loads: [Loads<L>; BLOCKS],
+    resist: [Resist<L>; BLOCKS],
+    remembered: [Remembered<L>; BLOCKS],
 }
 
 impl<L: Lane> Stage<L> {
     #[inline(always)]
     pub(crate) fn new(permit: L::Permit) -> Self {
-        Self { geometry: [Geometry::none(permit); BLOCKS], loads: [Loads::none(permit); BLOCKS] }
+        Self {
+            geometry: [Geometry::none(permit); BLOCKS],
+            loads: [Loads::none(permit); BLOCKS],
+            resist: [Resist::none(permit); BLOCKS],
+            remembered: [Remembered::pack(permit, |_| Impulse::NONE); BLOCKS],
+        }
     }
 }
 
@@ -84,6 +94,9 @@ pub(crate) fn load<T, L, const APART: bool>(
             let pairs = Pairs { view, entries, apart: APART, permit, geometry };
             *loads = pass.term.load_lanes(&pairs, &mut Picked { columns: list.columns, at });
         }
+        if T::IMPLICIT {
+            meet::<T, L, APART>(pass, list, acting, stage, out);
+        }
         for ((at, geometry), loads) in blocks.zip(&stage.geometry).zip(&stage.loads) {
             let entries = L::each(|k| list.active[at[k] as usize]);
             if inside {
@@ -96,12 +109,6 @@ pub(crate) fn load<T, L, const APART: bool>(
             }
             if !APART {
                 note_overlap(permit, geometry, out);
-            }
-            if T::IMPLICIT {
-                // Those that want attention are looked at again once they have had it.
-                let which = !loads.attention;
-                let pairs = Pairs { view, entries, apart: APART, permit, geometry };
-                meet(pass, list, &pairs, at, which, out);
             }
             if loads.attention != 0 {
                 for k in (0..L::WIDTH).filter(|k| loads.attention >> k & 1 == 1) {
@@ -145,46 +152,86 @@ fn add_up<L: Lane, const INSIDE: bool>(
     }
 }
 
-/// Keeps those pairs in `which` something resists for the end of the step; of pairs across a border
-/// only those whose first particle is the chunk's own.
+/// Keeps those pairs that something resists for the end of the step; of pairs across a border only
+/// those whose first particle is the chunk's own. Those that want attention are looked at again
+/// once they have had it.
 #[inline(always)]
-fn meet<T: PairTerm, L: Lane>(
+fn meet<T: PairTerm, L: Lane, const APART: bool>(
     pass: &Pass<'_, T, L>,
     list: &mut Listed<'_, T::Column>,
-    pairs: &Pairs<'_, L>,
-    at: &[u32],
-    mut which: u32,
+    acting: &[u32],
+    stage: &mut Stage<L>,
     out: &mut Out<'_>,
 ) {
-    let (permit, view, geometry) = (pass.permit, pass.view, pairs.geometry);
+    let (permit, view, kick) = (pass.permit, pass.view, pass.view.kick());
+    let inverse = Inverse { classes: view.inverse, class: view.class };
+    let blocks = acting.chunks_exact(L::WIDTH);
+    let Stage { geometry, loads, resist, remembered } = stage;
+    for (at, remembered) in blocks.clone().zip(&mut *remembered) {
+        let columns = &mut Picked { columns: list.columns, at };
+        *remembered = Remembered::pack(permit, |k| impulse(pass.term, columns.column(k)));
+    }
+    for (((at, geometry), remembered), resist) in
+        blocks.clone().zip(&*geometry).zip(&*remembered).zip(&mut *resist)
+    {
+        let entries = L::each(|k| list.active[at[k] as usize]);
+        let pairs = Pairs { view, entries, apart: APART, permit, geometry };
+        let columns = &mut Picked { columns: list.columns, at };
+        *resist = pass.term.resist_lanes(&pairs, columns, remembered.middle(geometry, kick));
+    }
+    for ((((at, geometry), loads), resist), remembered) in
+        blocks.zip(&*geometry).zip(&*loads).zip(&*resist).zip(&*remembered)
+    {
+        let (slots, index) = (L::each(|k| list.active[at[k] as usize]), L::each(|k| at[k]));
+        let sideways = view.sideways(permit, &slots, geometry.separation_speed);
+        let met = Met { slots, index, geometry, sideways, resist, remembered };
+        link(pass, list, &met, !loads.attention, inverse, out);
+    }
+}
+
+/// Makes links of those pairs in `which` something resists.
+#[inline(always)]
+fn link<T: PairTerm, L: Lane>(
+    pass: &Pass<'_, T, L>,
+    list: &mut Listed<'_, T::Column>,
+    met: &Met<'_, L>,
+    mut which: u32,
+    inverse: Inverse<'_>,
+    out: &mut Out<'_>,
+) {
     let inside = list.which == List::Inside;
     if !inside {
-        for k in (0..L::WIDTH).filter(|&k| !out.range.contains(&pairs.entries[k][0])) {
+        for k in (0..L::WIDTH).filter(|&k| !out.range.contains(&met.slots[k][0])) {
             which &= !(1 << k);
         }
     }
-    let links = &mut *out.links[usize::from(!inside)];
-    let mut columns = Picked { columns: list.columns, at };
-    let mut impulse = |k| pass.term.impulse(columns.column(k)).copied().unwrap_or_default();
-    let impulses: L::Each<Impulse> = L::each(&mut impulse);
-    let gap = middle(&impulses, geometry, view.kick());
-    let resist = pass.term.resist_lanes(pairs, &mut columns, gap);
-    let (slots, index) = (L::each(|k| pairs.entries[k]), L::each(|k| at[k]));
-    let any = resist.any();
+    let any = met.resist.any();
     // Where nothing resists any more nothing is remembered either.
     let free = which & !any;
     for k in (0..L::WIDTH).filter(|k| free >> k & 1 == 1) {
-        if let Some(impulse) = pass.term.impulse(columns.column(k)) {
+        if let Some(impulse) = pass.term.impulse(&mut list.columns[met.index[k] as usize]) {
             *impulse = Impulse::NONE;
         }
     }
-    let which = which & any;
-    let met = Met { which, slots, list: list.which, index, geometry, resist, impulses };
-    let inverse = Inverse { classes: view.inverse, class: view.class };
+    let links = &mut *out.links[usize::from(!inside)];
+    let times = pass.view.kick_and_drift();
+    let mut loose = which & any;
     if inside && L::WIDTH > 1 {
-        links.add(permit, &met, inverse, view.kick());
-    } else {
-        links.add_loose(&met, which, inverse, view.kick());
+        let pushed = (&mut *out.pushed, out.range.start);
+        loose = links.add(pass.permit, met, loose, inverse, times, pushed);
+    }
+    for k in (0..L::WIDTH).filter(|k| loose >> k & 1 == 1) {
+        let impulse = impulse(pass.term, &mut list.columns[met.index[k] as usize]);
+        links.add_loose(met, (k, impulse), list.which, inverse, times);
+    }
+}
+
+/// What a pair remembers of its impulses.
+#[inline(always)]
+fn impulse<T: PairTerm>(term: &T, column: &mut T::Column) -> Impulse {
+    match term.impulse(column) {
+        Some(impulse) => *impulse,
+        None => Impulse::NONE,
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::implicit::{Colours, Links};
 use crate::lists::PairList;
-use crate::particles::{Row, Velocity};
+use crate::particles::Row;
 use crate::view::View;
 use crate::{Encounter, Touch, wall_pass};
 
@@ -86,8 +86,9 @@ pub(crate) struct Chunk<C> {
     pub(crate) links_across: Links,
     /// Scratch: which pairs of the chunk can be solved for at once.
     pub(crate) colours: Colours,
-    /// Scratch: what remembered impulses do to the chunk's velocities.
-    pub(crate) pushed: Vec<Velocity>,
+    /// What the impulses that the links inside remember do to the momenta of the chunk's particles;
+    /// zero between steps. Empty unless the term is implicit.
+    pub(crate) pushed: Vec<Sum>,
     /// Largest overlap over the smaller radius so far.
     pub(crate) overlap: f64,
     pub(crate) pair_time: Duration,
@@ -95,7 +96,7 @@ pub(crate) struct Chunk<C> {
 }
 
 impl<C: Copy + Default> Chunk<C> {
-    pub(crate) fn new(range: Range<u32>, rolls: bool) -> Self {
+    pub(crate) fn new(range: Range<u32>, [rolls, implicit]: [bool; 2]) -> Self {
         let slots = range.len();
         Self {
             range,
@@ -112,7 +113,7 @@ impl<C: Copy + Default> Chunk<C> {
             links: Links::default(),
             links_across: Links::default(),
             colours: Colours::default(),
-            pushed: Vec::new(),
+            pushed: vec![Sum::default(); if implicit { slots } else { 0 }],
             overlap: 0.0,
             pair_time: Duration::ZERO,
             wall_time: Duration::ZERO,

@@ -22,9 +22,9 @@ const MANY: usize = Colours::WINDOW + TILE;
 pub(crate) fn read<T: PairTerm>(view: &View<'_>, term: &T, chunk: &mut Chunk<T::Column>) {
     let start = Instant::now();
     let Chunk { range, inside, across, sums, rolls, notes, apart, overlap, pair_time, .. } = chunk;
-    let colours = &mut chunk.colours;
+    let (colours, pushed) = (&mut chunk.colours, &mut chunk.pushed[..]);
     let links = [&mut chunk.links, &mut chunk.links_across];
-    let out = Out { range, sums, rolls, notes, apart, overlap, colours, links };
+    let out = Out { range, sums, rolls, notes, apart, overlap, colours, links, pushed };
     in_widest(Both { view, term, inside, across, out });
     *pair_time += start.elapsed();
 }

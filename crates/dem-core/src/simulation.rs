@@ -62,7 +62,7 @@ pub struct Simulation<T: PairTerm, B> {
     profile: Profile,
     limit: Limit,
     /// Scratch: what remembered impulses do to the velocities.
-    pushed: Vec<crate::particles::Velocity>,
+    pushed: Vec<crate::chunk::Sum>,
     /// 1/m and 1/I of the classes, for an implicit term.
     inverse: Vec<[f64; 2]>,
     passes: crate::Passes,

@@ -46,6 +46,28 @@ impl<'a> View<'a> {
         0.5 * self.time_step + self.lag
     }
 
+    /// How long the next kick lasts and the drift after it, s.
+    pub(crate) fn kick_and_drift(&self) -> [f64; 2] {
+        [self.kick(), self.time_step]
+    }
+
+    /// Square of the speed of pairs across their lines of centres, m²/s²; 0 at a wall, where both
+    /// slots are the same.
+    #[inline(always)]
+    pub(crate) fn sideways<L: Lane>(
+        &self,
+        permit: L::Permit,
+        slots: &L::Each<[u32; 2]>,
+        separation_speed: L,
+    ) -> L {
+        let of = |side: usize| L::each(|k| &self.velocities[slots[k][side] as usize]);
+        let [x, y, z, _] = L::rows(permit, &of(0), |p| p.v.0);
+        let first = Vector { x, y, z };
+        let [x, y, z, _] = L::rows(permit, &of(1), |p| p.v.0);
+        let v = first - Vector { x, y, z };
+        (v.dot(v) - separation_speed * separation_speed).most(L::splat(permit, 0.0))
+    }
+
     pub(crate) fn inertia(&self, slot: usize) -> f64 {
         self.classes[usize::from(self.class[slot])].inertia()
     }

@@ -21,7 +21,7 @@ use crate::tally::Gone;
 const NAME: &str = "checkpoint.bin";
 const MAGIC: &[u8; 8] = b"PENDULAR";
 /// Changes whenever [`Checkpoint`] does.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// What is wrong with a checkpoint.
 #[derive(Debug, thiserror::Error)]

@@ -2,6 +2,7 @@
 
 use pendular::BridgeForces;
 use pendular::contact::Linear;
+use pendular::dem::glam::Vec3;
 use pendular::dem::{Contact, ContactForces, DVec3, Implicit, Impulse, Pair, PairTerm, Spring};
 use pendular::pair::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -18,7 +19,7 @@ pub(crate) struct StoredPair {
 }
 
 /// Gap charged, normal impulse; shear, couple, rolling.
-type StoredImpulse = ([f64; 2], [[f64; 3]; 3]);
+type StoredImpulse = (f64, f32, [[f32; 3]; 3]);
 
 /// A pair term that may hold liquid, and whose columns can be stored.
 pub(crate) trait Makeup: PairTerm + Sized {
@@ -95,13 +96,13 @@ impl Makeup for Implicit<(Contact<Linear>, WetTerm)> {
     fn store((column, impulse): &Self::Column) -> StoredPair {
         let Impulse { charged, normal, shear, couple, rolling } = *impulse;
         let vectors = [shear, couple, rolling].map(|v| v.to_array());
-        let impulse = Some(([charged, normal], vectors));
+        let impulse = Some((charged, normal, vectors));
         StoredPair { impulse, ..<(Contact<Linear>, WetTerm)>::store(column) }
     }
 
     fn load_pair(&self, stored: StoredPair) -> Result<Self::Column, OutOfRange> {
-        let impulse = stored.impulse.map_or(Impulse::NONE, |([charged, normal], vectors)| {
-            let [shear, couple, rolling] = vectors.map(DVec3::from_array);
+        let impulse = stored.impulse.map_or(Impulse::NONE, |(charged, normal, vectors)| {
+            let [shear, couple, rolling] = vectors.map(Vec3::from_array);
             Impulse { charged, normal, shear, couple, rolling }
         });
         Ok((self.inner().load_pair(stored)?, impulse))
@@ -114,7 +115,7 @@ impl Makeup for Implicit<(Contact<Linear>, WetTerm)> {
     ) -> (ContactForces, Option<BridgeForces>) {
         let (mut contact, bridge) = self.inner().forces(pair, column);
         // Rolling friction is what the passes have found, not what a load would be.
-        contact.rolling = impulse.rolling / pair.time_step;
+        contact.rolling = impulse.rolling.as_dvec3() / pair.time_step;
         contact.rolling_power = -contact.rolling.dot(pair.spin);
         (contact, bridge)
     }

@@ -1,11 +1,13 @@
 //! Links inside a chunk, eight side by side: pairs of which no two have a body in common, so that
 //! all can be solved for at once.
 
-use super::Impulse;
-use super::link::{Body, Change, Inverse, Link, Met, Two};
+use glam::Vec3;
+
+use super::link::{Body, Change, Inverse, Link, Met, New, Path, Two, add_momentum};
 use super::normal::Normal;
 use super::shear::Slip;
-use crate::DVec3;
+use super::{Links, Memory};
+use crate::chunk::{List, Sum};
 use crate::lane::{Kernel, Lane, Vector, in_widest};
 use crate::particles::{Row, Velocity};
 use crate::view::motion;
@@ -14,16 +16,11 @@ use crate::view::motion;
 pub(crate) const EIGHT: usize = 8;
 // Where some of the numbers are; a vector takes three places.
 const PUSH: usize = 9;
-const OFFSET: usize = 10;
 const SHEAR: usize = 13;
-const TURN: usize = 21;
-const CHARGED: usize = 24;
-const PAID: usize = 30;
 /// Numbers of a [`Link`].
-const NUMBERS: usize = 31;
-
-/// Drag's impulse up to a gap and the drag there, of the pair at an index of the list.
-pub(crate) type Charge<'a> = dyn Fn(u32, f64) -> [f64; 2] + 'a;
+const NUMBERS: usize = 25;
+/// Numbers of a [`Path`].
+const PATH: usize = 6;
 
 /// Eight links.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +34,11 @@ pub(crate) struct Eight {
     /// Which have to be searched for.
     searched: u32,
 }
+
+/// The paths of eight links.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub(super) struct Paths([[f64; EIGHT]; PATH]);
 
 impl Eight {
     const NONE: Self = Self {
@@ -59,7 +61,7 @@ impl Eight {
             ],
             push: self.number(permit, at, PUSH),
             along: Normal {
-                offset: self.number(permit, at, OFFSET),
+                offset: self.number(permit, at, 10),
                 slope: self.number(permit, at, 11),
                 answer: self.number(permit, at, 12),
             },
@@ -69,23 +71,16 @@ impl Eight {
                 answer: self.number(permit, at, 17),
                 offset: self.vector(permit, at, 18),
             },
-            turn: self.number(permit, at, TURN),
-            gap: self.number(permit, at, 22),
-            weight: self.number(permit, at, 23),
-            charged: self.number(permit, at, CHARGED),
-            rate: self.number(permit, at, 25),
-            room: self.number(permit, at, 26),
-            mobility: self.number(permit, at, 27),
-            dashpot: self.number(permit, at, 28),
-            pull: self.number(permit, at, 29),
-            paid: self.number(permit, at, PAID),
+            to: self.number(permit, at, 21),
+            step: self.number(permit, at, 22),
+            room: self.number(permit, at, 23),
+            apart: self.number(permit, at, 24),
         }
     }
 
     #[inline(always)]
     fn number<L: Lane>(&self, permit: L::Permit, at: usize, n: usize) -> L {
-        let all = &self.numbers[n];
-        L::pack(permit, &L::each(|k| all[at + k]), |one| *one)
+        number(permit, &self.numbers[n], at)
     }
 
     #[inline(always)]
@@ -98,12 +93,8 @@ impl Eight {
     }
 
     #[inline(always)]
-    fn set<L: Lane>(&mut self, at: usize, n: usize, number: L) {
-        let number = number.unpack();
-        let all = &mut self.numbers[n];
-        for k in 0..L::WIDTH {
-            all[at + k] = number[k];
-        }
+    fn set<L: Lane>(&mut self, at: usize, n: usize, value: L) {
+        set(&mut self.numbers[n], at, value);
     }
 
     #[inline(always)]
@@ -115,9 +106,18 @@ impl Eight {
     }
 
     #[inline(always)]
+    fn set_along<L: Lane>(&mut self, at: usize, link: &Link<L>) {
+        let Normal { offset, slope, answer } = link.along;
+        self.set(at, 10, offset);
+        self.set(at, 11, slope);
+        self.set(at, 12, answer);
+    }
+
+    #[inline(always)]
     fn store<L: Lane>(&mut self, at: usize, link: &Link<L>) {
-        let Link { normal, levers, inverse, along, slip, .. } = *link;
+        let Link { normal, levers, inverse, slip, .. } = *link;
         self.set_impulses(at, link);
+        self.set_along(at, link);
         for (n, number) in [(0, normal.x), (1, normal.y), (2, normal.z)] {
             self.set(at, n, number);
         }
@@ -127,97 +127,155 @@ impl Eight {
         for (n, number) in [(6, inverse[0][1]), (7, inverse[1][0]), (8, inverse[1][1])] {
             self.set(at, n, number);
         }
-        for (n, number) in [(10, along.offset), (11, along.slope), (12, along.answer)] {
-            self.set(at, n, number);
-        }
         for (n, number) in [(16, slip.slope), (17, slip.answer), (18, slip.offset.x)] {
             self.set(at, n, number);
         }
-        for (n, number) in [(19, slip.offset.y), (20, slip.offset.z), (21, link.turn)] {
+        for (n, number) in [(19, slip.offset.y), (20, slip.offset.z), (21, link.to)] {
             self.set(at, n, number);
         }
-        for (n, number) in [(22, link.gap), (23, link.weight), (24, link.charged)] {
-            self.set(at, n, number);
-        }
-        for (n, number) in [(25, link.rate), (26, link.room), (27, link.mobility)] {
-            self.set(at, n, number);
-        }
-        for (n, number) in [(28, link.dashpot), (29, link.pull)] {
+        for (n, number) in [(22, link.step), (23, link.room), (24, link.apart)] {
             self.set(at, n, number);
         }
     }
 
-    /// Where the columns of those that are there stand, and what they are to remember.
-    pub(super) fn impulses(&self) -> impl Iterator<Item = (u32, Impulse)> {
-        (0..EIGHT).filter(|k| self.which >> k & 1 == 1).map(|k| {
-            let number = |n: usize| self.numbers[n][k];
-            let shear = DVec3::new(number(SHEAR), number(SHEAR + 1), number(SHEAR + 2));
-            let (charged, normal) = (number(CHARGED), number(PUSH));
-            (self.index[k], Impulse { charged, normal, shear, ..Impulse::NONE })
-        })
+    /// What those that are there are to remember, charged up to these gaps.
+    fn remember(&self, charged: &[f64; EIGHT], memory: &mut dyn Memory) {
+        for k in (0..EIGHT).filter(|k| self.which >> k & 1 == 1) {
+            let Some(own) = memory.impulse(List::Inside, self.index[k]) else { continue };
+            // Field by field: to write a whole one somewhere else first would take longer.
+            own.charged = charged[k];
+            own.normal = self.numbers[PUSH][k] as f32;
+            own.shear.x = self.numbers[SHEAR][k] as f32;
+            own.shear.y = self.numbers[SHEAR + 1][k] as f32;
+            own.shear.z = self.numbers[SHEAR + 2][k] as f32;
+            (own.couple, own.rolling) = (Vec3::ZERO, Vec3::ZERO);
+        }
     }
 }
 
-/// Adds links that the lanes hold; the place of those that are not there stays empty.
+impl Paths {
+    const NONE: Self = Self([[0.0; EIGHT]; PATH]);
+
+    #[inline(always)]
+    fn store<L: Lane>(&mut self, at: usize, path: &Path<L>) {
+        let Path { charged, paid, found, before, dashpot, pull } = *path;
+        let numbers = [charged, paid, found, before, dashpot, pull];
+        for (all, number) in self.0.iter_mut().zip(numbers) {
+            set(all, at, number);
+        }
+    }
+
+    fn one(&self, k: usize) -> Path<f64> {
+        let [charged, paid, found, before, dashpot, pull] = self.0.each_ref().map(|all| all[k]);
+        Path { charged, paid, found, before, dashpot, pull }
+    }
+}
+
 #[inline(always)]
-pub(super) fn add<L: Lane>(
-    eights: &mut Vec<Eight>,
-    taken: &mut usize,
-    permit: L::Permit,
-    met: &Met<'_, L>,
-    inverse: Inverse<'_>,
-    duration: f64,
-) -> u32 {
-    let (link, more) = Link::new(permit, met, inverse, duration);
-    let (last, at) = (*taken / EIGHT, *taken % EIGHT);
-    if last == eights.len() {
-        eights.push(Eight::NONE);
-    }
-    *taken += L::WIDTH;
-    let eight = &mut eights[last];
-    if at == 0 {
-        (eight.which, eight.searched) = (0, 0);
-    }
-    eight.store(at, &link);
-    let here = met.which & !more;
+fn number<L: Lane>(permit: L::Permit, all: &[f64; EIGHT], at: usize) -> L {
+    L::pack(permit, &L::each(|k| all[at + k]), |one| *one)
+}
+
+#[inline(always)]
+fn set<L: Lane>(all: &mut [f64; EIGHT], at: usize, value: L) {
+    let value = value.unpack();
     for k in 0..L::WIDTH {
-        (eight.slots[at + k], eight.index[at + k]) = (met.slots[k], met.index[k]);
-        if here >> k & 1 == 0 {
-            eight.numbers.iter_mut().for_each(|all| all[at + k] = 0.0);
-        }
+        all[at + k] = value[k];
     }
-    eight.which |= (here & ((1 << L::WIDTH) - 1)) << at;
-    met.which & more
 }
 
-/// What is done with the links of a chunk.
-pub(crate) enum Task<'a> {
-    /// The sums that scale a start; what the start does to the velocities is added to `pushed`.
-    Start { drift: f64, pushed: &'a mut [Velocity] },
-    /// A visit of each.
-    Pass { duration: f64, share: f64, forward: bool, charge: &'a Charge<'a> },
-    /// The end: how far the gaps are charged for now.
-    Close { duration: f64 },
+impl Links {
+    /// Makes links of pairs of which no two have a body in common, those in `which`, and adds what
+    /// the impulses that they remember do to `pushed`, whose first is that of slot `first`. Returns
+    /// those that have more to them, which are left out; their places stay empty.
+    #[inline(always)]
+    pub(crate) fn add<L: Lane>(
+        &mut self,
+        permit: L::Permit,
+        met: &Met<'_, L>,
+        which: u32,
+        inverse: Inverse<'_>,
+        times: [f64; 2],
+        (pushed, first): (&mut [Sum], u32),
+    ) -> u32 {
+        let New { link, path, searched, rolls } = Link::new(permit, met, inverse, times);
+        let (last, at) = (self.taken / EIGHT, self.taken % EIGHT);
+        if last == self.all_eights.len() {
+            self.all_eights.push(Eight::NONE);
+            self.all_paths.push(Paths::NONE);
+        }
+        self.taken += L::WIDTH;
+        let (eight, paths) = (&mut self.all_eights[last], &mut self.all_paths[last]);
+        if at == 0 {
+            (eight.which, eight.searched) = (0, 0);
+        }
+        eight.store(at, &link);
+        paths.store(at, &path);
+        let all = (1 << L::WIDTH) - 1;
+        let here = which & !rolls & all;
+        for k in 0..L::WIDTH {
+            (eight.slots[at + k], eight.index[at + k]) = (met.slots[k], met.index[k]);
+        }
+        eight.which |= here << at;
+        eight.searched |= (searched & here) << at;
+        let mut sums = link.start();
+        let [push, a, b] = link.momentum();
+        let (push, turns) = (push.rows(permit), [a.rows(permit), b.rows(permit)]);
+        if here != all {
+            // Few are so.
+            let mut each = [sums[0].unpack(), sums[1].unpack()];
+            for k in (0..L::WIDTH).filter(|k| here >> k & 1 == 0) {
+                eight.numbers.iter_mut().for_each(|all| all[at + k] = 0.0);
+                (each[0][k], each[1][k]) = (0.0, 0.0);
+            }
+            sums = [L::pack(permit, &each[0], |one| *one), L::pack(permit, &each[1], |one| *one)];
+        }
+        for k in 0..L::WIDTH {
+            if here >> k & 1 == 1 {
+                add_momentum(pushed, met.slots[k], first, push[k], [turns[0][k], turns[1][k]]);
+            }
+        }
+        add_up::<L>(permit, &mut self.start, at, sums);
+        which & rolls
+    }
+
+    /// A visit of each of the links that lie side by side, their impulses scaled by `share` before
+    /// it. On the way back they are written to `memory`; returns what all of that changed.
+    pub(crate) fn pass_eights(
+        &mut self,
+        velocities: &mut [Velocity],
+        first: u32,
+        visit: Visit,
+        memory: &mut dyn Memory,
+    ) -> Change {
+        let mut sums = [[0.0; EIGHT]; 2];
+        let (eights, paths) = (&mut self.all_eights[..], &mut self.all_paths[..]);
+        let count = self.taken.div_ceil(EIGHT);
+        let (eights, paths) = (&mut eights[..count], &mut paths[..count]);
+        let work = Work { visit, eights, paths, velocities, first, memory, sums: &mut sums };
+        in_widest(work);
+        let [changed, all] = sums.map(|lanes| lanes.iter().sum());
+        Change { changed, all }
+    }
 }
 
-/// Does a task for links between bodies whose velocities these are, the first of them that of slot
-/// `first`; returns the two sums of a start or of a pass.
-pub(crate) fn work(
-    task: Task<'_>,
-    eights: &mut [Eight],
-    velocities: &mut [Velocity],
-    first: u32,
-) -> [f64; 2] {
-    let mut sums = [[0.0; EIGHT]; 2];
-    in_widest(Work { task, eights, velocities, first, sums: &mut sums });
-    sums.map(|lanes| lanes.iter().sum())
+/// How links are visited.
+#[derive(Clone, Copy)]
+pub(crate) struct Visit {
+    /// Duration of the impulses, s.
+    pub(crate) duration: f64,
+    pub(crate) share: f64,
+    pub(crate) forward: bool,
 }
 
+/// Visits of links between bodies whose velocities these are, the first of them that of slot `first`.
 struct Work<'a> {
-    task: Task<'a>,
+    visit: Visit,
     eights: &'a mut [Eight],
+    paths: &'a mut [Paths],
     velocities: &'a mut [Velocity],
     first: u32,
+    memory: &'a mut dyn Memory,
     /// Lane by lane, so that no sum depends on how wide the registers are.
     sums: &'a mut [[f64; EIGHT]; 2],
 }
@@ -225,108 +283,74 @@ struct Work<'a> {
 impl Kernel for Work<'_> {
     #[inline(always)]
     fn run<L: Lane>(self, permit: L::Permit) {
-        let Work { task, eights, velocities, first, sums } = self;
-        match task {
-            Task::Start { drift, pushed } => {
-                for eight in eights {
-                    start::<L>(permit, eight, velocities, pushed, first, drift, sums);
+        let Work { visit, eights, paths, velocities, first, memory, sums } = self;
+        let all = eights.iter_mut().zip(paths);
+        if visit.forward {
+            for (eight, paths) in all {
+                for at in (0..EIGHT).step_by(L::WIDTH) {
+                    pass::<L>(permit, (eight, paths), at, velocities, first, visit, &*memory);
                 }
             }
-            Task::Pass { duration, share, forward: true, charge } => {
-                for eight in eights {
-                    pass::<L>(permit, eight, velocities, first, [duration, share], charge, sums);
+        } else {
+            for (eight, paths) in all.rev() {
+                let mut charged = [0.0; EIGHT];
+                for at in (0..EIGHT).step_by(L::WIDTH) {
+                    let (link, speed, push, shear) =
+                        pass::<L>(permit, (eight, paths), at, velocities, first, visit, &*memory);
+                    let amount = link.amount(push, shear);
+                    add_up::<L>(permit, sums, at, [amount.changed, amount.all]);
+                    set(&mut charged, at, link.charge_to(speed, push));
                 }
-            }
-            Task::Pass { duration, share, forward: false, charge } => {
-                for eight in eights.iter_mut().rev() {
-                    pass::<L>(permit, eight, velocities, first, [duration, share], charge, sums);
-                }
-            }
-            Task::Close { duration } => {
-                for eight in eights {
-                    for at in (0..EIGHT).step_by(L::WIDTH) {
-                        let two = take::<L>(permit, velocities, &eight.slots, at, first);
-                        let charged = eight.load::<L>(permit, at).charge_to(&two, duration);
-                        eight.set(at, CHARGED, charged);
-                    }
-                }
+                eight.remember(&charged, memory);
             }
         }
     }
 }
 
-#[inline(always)]
-fn start<L: Lane>(
-    permit: L::Permit,
-    eight: &mut Eight,
-    velocities: &[Velocity],
-    pushed: &mut [Velocity],
-    first: u32,
-    drift: f64,
-    sums: &mut [[f64; EIGHT]; 2],
-) {
-    for at in (0..EIGHT).step_by(L::WIDTH) {
-        let mut link = eight.load::<L>(permit, at);
-        let two = take::<L>(permit, velocities, &eight.slots, at, first);
-        let mut push = take::<L>(permit, pushed, &eight.slots, at, first);
-        let [a, b] = link.start(&two, &mut push, drift);
-        put::<L>(permit, pushed, &eight.slots, at, first, &push);
-        eight.set(at, OFFSET, link.along.offset);
-        eight.set(at, TURN, link.turn);
-        add_up::<L>(permit, sums, at, [a, b]);
-    }
-}
-
+/// Changes the impulses of the links from lane `at` on so that they fit the velocities, and these with
+/// them. Returns the links, their speeds before, and by how much their impulses have changed.
 #[inline(always)]
 fn pass<L: Lane>(
     permit: L::Permit,
-    eight: &mut Eight,
+    (eight, paths): (&mut Eight, &mut Paths),
+    at: usize,
     velocities: &mut [Velocity],
     first: u32,
-    [duration, share]: [f64; 2],
-    charge: &Charge<'_>,
-    sums: &mut [[f64; EIGHT]; 2],
-) {
-    for at in (0..EIGHT).step_by(L::WIDTH) {
-        let mut link = eight.load::<L>(permit, at);
-        link.scale(share);
-        let mut two = take::<L>(permit, velocities, &eight.slots, at, first);
-        let (speed, slip) = link.motion(&two);
-        let mut push = link.along.fit(speed, link.push);
-        let fast = (link.is_fast(speed) << at) & !eight.searched;
-        if fast != 0 {
-            eight.searched |= fast;
-            for k in (0..EIGHT).filter(|k| fast >> k & 1 == 1) {
-                eight.numbers[PAID][k] = charge(eight.index[k], eight.numbers[CHARGED][k])[0];
-            }
+    Visit { duration, share, .. }: Visit,
+    memory: &dyn Memory,
+) -> (Link<L>, L, L, Vector<L>) {
+    let mut link = eight.load::<L>(permit, at);
+    link.scale(share);
+    let mut two = take::<L>(permit, velocities, &eight.slots, at, first);
+    let (speed, slip) = link.motion(&two);
+    let mut push = link.along.change(speed, link.push);
+    eight.searched |= link.is_fast(speed) << at & eight.which;
+    let searched = eight.searched >> at & ((1 << L::WIDTH) - 1);
+    if searched != 0 {
+        let (speeds, mut found) = (speed.unpack(), push.unpack());
+        for k in (0..L::WIDTH).filter(|k| searched >> k & 1 == 1) {
+            let index = eight.index[at + k];
+            let charge = |gap: f64| memory.charge(List::Inside, index, gap);
+            let (mut one, mut path) = (eight.load::<f64>((), at + k), paths.one(at + k));
+            one.scale(share);
+            found[k] = one.search(&mut path, speeds[k], duration, &charge);
+            eight.set_along(at + k, &one);
+            paths.store(at + k, &path);
         }
-        if eight.searched >> at & ((1 << L::WIDTH) - 1) != 0 {
-            let (speeds, now) = (speed.unpack(), link.push.unpack());
-            let mut found = push.unpack();
-            for k in (0..L::WIDTH).filter(|k| eight.searched >> (at + k) & 1 == 1) {
-                let index = eight.index[at + k];
-                let one = Link { push: now[k], ..eight.load::<f64>((), at + k) };
-                found[k] = one.search(speeds[k], duration, &|gap| charge(index, gap));
-            }
-            push = L::pack(permit, &found, |one| *one);
-        }
-        let shear = link.slip.change(slip, link.shear);
-        let Change { changed, all } = link.change(&mut two, push, shear);
-        put::<L>(permit, velocities, &eight.slots, at, first, &two);
-        eight.set_impulses(at, &link);
-        add_up::<L>(permit, sums, at, [changed, all]);
+        push = L::pack(permit, &found, |one| *one);
     }
+    let shear = link.slip.change(slip, link.shear);
+    link.change(&mut two, push, shear);
+    put::<L>(permit, velocities, &eight.slots, at, first, &two);
+    eight.set_impulses(at, &link);
+    (link, speed, push, shear)
 }
 
 /// Adds numbers lane by lane.
 #[inline(always)]
 fn add_up<L: Lane>(permit: L::Permit, sums: &mut [[f64; EIGHT]; 2], at: usize, of: [L; 2]) {
     for (sum, of) in sums.iter_mut().zip(of) {
-        let now = L::pack(permit, &L::each(|k| sum[at + k]), |one| *one) + of;
-        let now = now.unpack();
-        for k in 0..L::WIDTH {
-            sum[at + k] = now[k];
-        }
+        set(sum, at, number::<L>(permit, sum, at) + of);
     }
 }
 

@@ -1,38 +1,65 @@
 //! What is solved for in one pair whose motion is resisted, or in several side by side.
 
-use super::normal::{Along, LINEAR, Normal, STEP, weight};
+use super::normal::{Along, Fit, LINEAR, NEAR, Normal, STEP, softness, weight};
 use super::shear::Slip;
 use super::{Impulse, Resist};
-use crate::chunk::List;
+use crate::chunk::Sum;
 use crate::lane::{Lane, Vector};
 use crate::pairs::Geometry;
 use crate::particles::Class;
 
 /// Pairs as they were read, side by side.
 pub(crate) struct Met<'a, L: Lane> {
-    /// One bit for each pair that becomes a link.
-    pub(crate) which: u32,
     /// Slots of the bodies; the second is that of the first again at a wall.
     pub(crate) slots: L::Each<[u32; 2]>,
     /// Where the pairs' columns stand.
-    pub(crate) list: List,
     pub(crate) index: L::Each<u32>,
     pub(crate) geometry: &'a Geometry<L>,
-    pub(crate) resist: Resist<L>,
-    pub(crate) impulses: L::Each<Impulse>,
+    /// Square of the speed across the line of centres, m²/s².
+    pub(crate) sideways: L,
+    pub(crate) resist: &'a Resist<L>,
+    pub(crate) remembered: &'a Remembered<L>,
 }
 
-/// The middle of what the gaps are expected to be charged for in this step.
-#[inline(always)]
-pub(crate) fn middle<L: Lane>(
-    impulses: &L::Each<Impulse>,
-    geometry: &Geometry<L>,
-    duration: f64,
-) -> L {
-    let permit = geometry.gap.permit();
-    let charged = L::pack(permit, impulses, |impulse| impulse.charged);
-    let charged = charged.if_less(L::splat(permit, f64::INFINITY), charged, geometry.gap);
-    charged + L::splat(permit, 0.5 * duration) * geometry.separation_speed
+/// What pairs remember of their [`Impulse`]s, without those on rolling.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Remembered<L> {
+    pub(super) charged: L,
+    push: L,
+    shear: Vector<L>,
+}
+
+impl<L: Lane> Remembered<L> {
+    #[inline(always)]
+    pub(crate) fn pack(permit: L::Permit, mut each: impl FnMut(usize) -> Impulse) -> Self {
+        let mut charged = L::each(|_| 0.0);
+        let rows = L::each(|k| {
+            let Impulse { charged: gap, normal, shear, .. } = each(k);
+            charged[k] = gap;
+            [f64::from(shear.x), f64::from(shear.y), f64::from(shear.z), f64::from(normal)]
+        });
+        let [x, y, z, push] = L::rows(permit, &rows, |row| *row);
+        let charged = L::pack(permit, &charged, |gap| *gap);
+        Self { charged, push, shear: Vector { x, y, z } }
+    }
+
+    /// The middle of what the gaps are expected to be charged for in this step.
+    #[inline(always)]
+    pub(crate) fn middle(&self, geometry: &Geometry<L>, duration: f64) -> L {
+        let permit = geometry.gap.permit();
+        let any = L::splat(permit, f64::INFINITY);
+        let charged = self.charged.if_less(any, self.charged, geometry.gap);
+        charged + L::splat(permit, 0.5 * duration) * geometry.separation_speed
+    }
+
+    /// Pair `k` alone.
+    #[inline(always)]
+    pub(super) fn single(&self, k: usize) -> Remembered<f64> {
+        let one = |lanes: L| lanes.unpack()[k];
+        let Vector { x, y, z } = self.shear;
+        let shear = Vector { x: one(x), y: one(y), z: one(z) };
+        Remembered { charged: one(self.charged), push: one(self.push), shear }
+    }
 }
 
 /// The impulses between two bodies, and what decides them.
@@ -46,22 +73,36 @@ pub(crate) struct Link<L> {
     pub(super) along: Normal<L>,
     pub(super) shear: Vector<L>,
     pub(super) slip: Slip<L>,
-    /// What the turning line of centres adds to the speed of separation, m/s. Until the start it is
-    /// that over h v_t²: |d − h v| grows by v_t² h/(2 |d|).
-    pub(super) turn: L,
-    pub(super) gap: L,
-    /// Of the velocity after the step.
-    pub(super) weight: L,
+    /// For a speed a of separation the drag is charged up to the gap `to` + `step` a.
+    pub(super) to: L,
+    pub(super) step: L,
+    /// The fastest that the bodies may move along their line of centres for the pair to be linear:
+    /// either way, and apart.
+    pub(super) room: L,
+    pub(super) apart: L,
+}
+
+/// What only a pair needs that is not linear.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Path<L> {
     /// The gap up to which the drag has been charged, m.
     pub(super) charged: L,
-    /// Its impulse up to there; known where it is to be searched for.
+    /// Its impulse up to there; not a number until the pair is searched for.
     pub(super) paid: L,
-    pub(super) rate: L,
-    /// The fastest that the bodies may move along their line of centres for the pair to be linear.
-    pub(super) room: L,
-    pub(super) mobility: L,
+    /// The speed that was found.
+    pub(super) found: L,
+    /// The part of the gap's rate that the speed after the step is not, m/s.
+    pub(super) before: L,
     pub(super) dashpot: L,
     pub(super) pull: L,
+}
+
+/// What new links are: the links, which of them are not linear and which resist rolling, one bit each.
+pub(super) struct New<L> {
+    pub(super) link: Link<L>,
+    pub(super) path: Path<L>,
+    pub(super) searched: u32,
+    pub(super) rolls: u32,
 }
 
 /// What a change of impulses amounts to, N s.
@@ -93,11 +134,17 @@ impl Inverse<'_> {
         classes.iter().map(|class| [1.0 / class.mass(), 1.0 / class.inertia()]).collect()
     }
 
+    /// Of the body at a slot.
+    #[inline(always)]
+    pub(crate) fn of_slot(&self, slot: u32) -> [f64; 2] {
+        self.classes[usize::from(self.class[slot as usize])]
+    }
+
     /// Of both bodies; a wall does not move.
     #[inline(always)]
     fn both(&self, [a, b]: [u32; 2]) -> [f64; 4] {
-        let one = |slot: u32| self.classes[usize::from(self.class[slot as usize])];
-        let ([m, t], [n, u]) = (one(a), if a == b { [0.0; 2] } else { one(b) });
+        let [m, t] = self.of_slot(a);
+        let [n, u] = if a == b { [0.0; 2] } else { self.of_slot(b) };
         [m, t, n, u]
     }
 }
@@ -117,18 +164,18 @@ pub(crate) struct Two<L> {
 }
 
 impl<L: Lane> Link<L> {
-    /// Of pairs that resist, for impulses that act for `duration` s. Returns too which of them resist
-    /// rolling, one bit each: they have more to them.
+    /// Of pairs that resist, for impulses that act for `duration` s, before the positions move for
+    /// `drift` s.
     #[inline(always)]
     pub(super) fn new(
         permit: L::Permit,
         met: &Met<'_, L>,
         inverse: Inverse<'_>,
-        duration: f64,
-    ) -> (Self, u32) {
-        let Met { geometry, resist, impulses, .. } = met;
+        [duration, drift]: [f64; 2],
+    ) -> New<L> {
+        let Met { geometry, resist, remembered, .. } = met;
         let (zero, one) = (L::splat(permit, 0.0), L::splat(permit, 1.0));
-        let (step, any) = (L::splat(permit, duration), L::splat(permit, f64::INFINITY));
+        let (whole, any) = (L::splat(permit, duration), L::splat(permit, f64::INFINITY));
         let both = L::each(|k| inverse.both(met.slots[k]));
         let [mi, ti, mj, tj] = L::rows(permit, &both, |both| *both);
         let (mobility, levers, gap) = (mi + mj, geometry.levers, geometry.gap);
@@ -137,19 +184,19 @@ impl<L: Lane> Link<L> {
         let (rate, normal) = (geometry.separation_speed, geometry.normal);
 
         let stiff = resist.drag + resist.dashpot;
-        let theta = weight(step * stiff * mobility);
-        let before = (one - theta) * step;
-        let [x, y, z, push] =
-            L::rows(permit, impulses, |i| [i.shear.x, i.shear.y, i.shear.z, i.normal]);
-        let charged = L::pack(permit, impulses, |impulse| impulse.charged);
+        let theta = weight(whole * stiff * mobility);
+        let (step, rest) = (theta * whole, (one - theta) * whole);
         // A bridge that is there from the start is charged from its gap on; one that forms later was
         // met somewhere on the way of the step before.
         let first = duration < geometry.time_step;
-        let formed = if first { gap } else { gap - before * rate };
-        let charged = charged.if_less(any, charged, formed);
-        let slope = theta * step * stiff;
+        let formed = if first { gap } else { gap - rest * rate };
+        let charged = remembered.charged.if_less(any, remembered.charged, formed);
+        // What the turning line of centres adds to the speed of separation: |d − h v| grows by
+        // v_t² h/(2 |d|).
+        let turn = L::splat(permit, 0.5 * drift) * met.sideways / (a + b);
+        let slope = step * stiff;
         let along = Normal {
-            offset: resist.drag * (gap - charged) + before * resist.dashpot * rate,
+            offset: resist.drag * (gap - charged) + rest * resist.dashpot * rate + slope * turn,
             slope,
             answer: one / (one + slope * mobility),
         };
@@ -157,37 +204,41 @@ impl<L: Lane> Link<L> {
         let [slip, coupling, rolling] = resist.across;
         let coupled = coupling.most(-coupling) + rolling;
         let slip = zero.if_less(coupled, zero, slip);
-        let theta_across = weight(step * slip * across);
-        let slope_across = theta_across * step * slip;
+        let theta_across = weight(whole * slip * across);
+        let slope_across = theta_across * whole * slip;
         let slip = Slip {
-            offset: geometry.slip * ((one - theta_across) * step * slip),
+            offset: geometry.slip * ((one - theta_across) * whole * slip),
             slope: slope_across,
             answer: one / (one + slope_across * across),
         };
         // The plane across the line of centres has turned a little.
-        let shear = Vector { x, y, z };
-        let shear = shear - normal * shear.dot(normal);
+        let shear = remembered.shear - normal * remembered.shear.dot(normal);
         let room = resist.clearance * L::splat(permit, LINEAR / duration);
+        let room = zero.if_less(resist.drag, room, any);
+        let cap = zero.if_less(resist.dashpot, resist.pull / (resist.dashpot + resist.dashpot), any);
         let link = Self {
             normal,
             levers,
             inverse: [[mi, ti], [mj, tj]],
-            push,
+            push: remembered.push,
             along,
             shear,
             slip,
-            turn: L::splat(permit, 0.5) / (a + b),
-            gap,
-            weight: theta,
+            to: gap + step * turn,
+            step,
+            room,
+            apart: room.least(cap),
+        };
+        let path = Path {
             charged,
-            paid: zero,
-            rate,
-            room: zero.if_less(resist.drag, room, any),
-            mobility,
+            paid: L::splat(permit, f64::NAN),
+            found: zero,
+            before: (one - theta) * rate + theta * turn,
             dashpot: resist.dashpot,
             pull: resist.pull,
         };
-        (link, zero.less_bits(coupled + resist.rolling))
+        let rolls = zero.less_bits(coupled + resist.rolling);
+        New { link, path, searched: link.is_fast(rate), rolls }
     }
 
     /// Speed of separation along the normal, and slip.
@@ -215,29 +266,27 @@ impl<L: Lane> Link<L> {
     /// Which pairs move so fast that they have to be searched for, one bit each.
     #[inline(always)]
     pub(super) fn is_fast(&self, speed: L) -> u32 {
-        let permit = speed.permit();
-        let (rate, after) = (self.rate, speed + self.turn);
-        let fastest = rate.most(-rate).most(after.most(-after));
-        let pulled = self.dashpot * rate.most(after);
-        let bound = self.pull * L::splat(permit, 0.5);
-        self.room.less_bits(fastest)
-            | bound.less_bits(pulled) & L::splat(permit, 0.0).less_bits(self.dashpot)
+        self.apart.less_bits(speed) | self.room.less_bits(-speed)
     }
 
-    /// The sums that scale a start, for the velocities after the kick; what the pair remembers is
-    /// given to `pushed`. Settles too how far the line of centres turns in the `drift`.
+    /// The two sums over pairs that scale a start, as far as no velocity after the kick goes into
+    /// them: p offset/slope and p²/slope.
     #[inline(always)]
-    pub(super) fn start(&mut self, two: &Two<L>, pushed: &mut Two<L>, drift: f64) -> [L; 2] {
-        let (speed, slip) = self.motion(two);
-        let permit = speed.permit();
-        let (zero, v) = (L::splat(permit, 0.0), two.first.v - two.second.v);
-        let sideways = (v.dot(v) - speed * speed).most(zero);
-        self.turn = self.turn * (L::splat(permit, drift) * sideways);
-        self.along.offset = self.along.offset + self.along.slope * self.turn;
-        let [a, b] = self.along.start(self.push, speed);
-        let [c, d] = self.slip.start(self.shear, slip);
-        self.give(pushed, self.push, self.shear);
-        [a + c, b + d]
+    pub(super) fn start(&self) -> [L; 2] {
+        let soft = softness(self.along.slope);
+        let soft_across = softness(self.slip.slope);
+        [
+            soft * self.push * self.along.offset + soft_across * self.shear.dot(self.slip.offset),
+            soft * self.push * self.push + soft_across * self.shear.dot(self.shear),
+        ]
+    }
+
+    /// What the impulses add to the momentum of both bodies and to their angular momentum.
+    #[inline(always)]
+    pub(super) fn momentum(&self) -> [Vector<L>; 3] {
+        let arm = self.normal.cross(self.shear);
+        let [a, b] = self.levers;
+        [self.shear - self.normal * self.push, arm * a, arm * b]
     }
 
     /// Scales the impulses; those across are what `slip` resists.
@@ -248,40 +297,85 @@ impl<L: Lane> Link<L> {
         self.shear = self.shear * share;
     }
 
-    /// Changes the impulses to `push` along the line of centres and by `shear` across it.
+    /// Changes the impulses, along the line of centres by `push` and across it by `shear`.
     #[inline(always)]
-    pub(super) fn change(&mut self, two: &mut Two<L>, push: L, shear: Vector<L>) -> Change<L> {
-        let change = push - self.push;
-        self.give(two, change, shear);
-        self.push = push;
+    pub(super) fn change(&mut self, two: &mut Two<L>, push: L, shear: Vector<L>) {
+        self.give(two, push, shear);
+        self.push = self.push + push;
         self.shear += shear;
-        Change {
-            changed: change.most(-change) + shear.dot(shear).sqrt(),
-            all: push.most(-push) + self.shear.dot(self.shear).sqrt(),
-        }
     }
 
-    /// How far the gap is charged for after impulses that acted for `duration` s.
+    /// What a change of the impulses amounts to, and what they do now.
     #[inline(always)]
-    pub(super) fn charge_to(&self, two: &Two<L>, duration: f64) -> L {
-        let (speed, _) = self.motion(two);
-        self.gap + self.weight * L::splat(speed.permit(), duration) * (speed + self.turn)
+    pub(super) fn amount(&self, push: L, shear: Vector<L>) -> Change<L> {
+        Change { changed: size(push, shear), all: size(self.push, self.shear) }
+    }
+
+    /// The gap up to which the drag is charged when the impulse along the line of centres is changed
+    /// by `push` at this speed.
+    #[inline(always)]
+    pub(super) fn charge_to(&self, speed: L, push: L) -> L {
+        let [[mi, _], [mj, _]] = self.inverse;
+        self.to + self.step * (speed + push * (mi + mj))
+    }
+}
+
+/// How large an impulse is, as the sum of its parts.
+#[inline(always)]
+fn size<L: Lane>(push: L, shear: Vector<L>) -> L {
+    let Vector { x, y, z } = shear;
+    (push.most(-push) + x.most(-x)) + (y.most(-y) + z.most(-z))
+}
+
+/// Adds what impulses do to the bodies to their momenta, the first of which is that of slot `first`.
+#[inline(always)]
+pub(super) fn add_momentum(
+    pushed: &mut [Sum],
+    [a, b]: [u32; 2],
+    first: u32,
+    push: [f64; 4],
+    turns: [[f64; 4]; 2],
+) {
+    let sum = &mut pushed[(a - first) as usize];
+    sum.force.add(push);
+    sum.torque.add(turns[0]);
+    if a != b {
+        let sum = &mut pushed[(b - first) as usize];
+        sum.force.take(push);
+        sum.torque.add(turns[1]);
     }
 }
 
 impl Link<f64> {
-    /// The impulse along the line of centres of a pair that has to be searched for; `charge` gives
-    /// the drag's impulse up to a gap, and the drag there.
+    /// By how much the impulse along the line of centres has to change of a pair that is not linear;
+    /// `charge` gives the drag's impulse up to a gap, and the drag there.
+    ///
+    /// What has been found stays in `along` and `path`, for visits that change little of it.
     #[inline(never)]
     pub(super) fn search(
-        &self,
+        &mut self,
+        path: &mut Path<f64>,
         speed: f64,
         duration: f64,
         charge: &dyn Fn(f64) -> [f64; 2],
     ) -> f64 {
-        let Self { gap, paid, rate, turn, weight, mobility, dashpot, pull, room, .. } = *self;
-        let along = Along { gap, paid, rate, turn, weight, duration, dashpot, pull, mobility };
-        along.search(speed, self.push, STEP / LINEAR * room, charge)
+        let Self { to, step, room, push, inverse: [[mi, _], [mj, _]], .. } = *self;
+        let mobility = mi + mj;
+        if path.paid.is_nan() {
+            path.paid = charge(path.charged)[0];
+        } else {
+            let change = self.along.change(speed, push);
+            if (speed + change * mobility - path.found).abs() <= NEAR / LINEAR * room {
+                return change;
+            }
+        }
+        let along = Along { to, step, duration, path: *path, mobility };
+        let Fit { speed: found, slope } = along.search(speed, push, STEP / LINEAR * room, charge);
+        let change = (found - speed) / mobility;
+        let offset = -(push + change) - slope * found;
+        self.along = Normal { offset, slope, answer: 1.0 / (1.0 + slope * mobility) };
+        path.found = found;
+        change
     }
 }
 
@@ -297,22 +391,21 @@ mod tests {
         geometry.separation_speed = 0.7;
         geometry.levers = [1.0, 0.0];
         let met = Met::<f64> {
-            which: 1,
             slots: [[0, 0]],
-            list: List::Inside,
             index: [0],
             geometry: &geometry,
-            resist: Resist { drag, clearance: f64::INFINITY, ..Resist::default() },
-            impulses: [Impulse::NONE],
+            sideways: 0.0,
+            resist: &Resist { drag, clearance: f64::INFINITY, ..Resist::default() },
+            remembered: &Remembered::pack((), |_| Impulse::NONE),
         };
         let inverse = Inverse { classes: &[[1.0 / mass, 0.0]], class: &[0] };
-        let (link, more) = Link::new((), &met, inverse, h);
-        assert_eq!(more, 0);
-        let p = link.along.fit(0.7, link.push);
+        let New { link, path, searched, rolls } = Link::new((), &met, inverse, [h, h]);
+        assert_eq!([searched, rolls], [0; 2]);
+        let p = link.push + link.along.change(0.7, link.push);
         let left = 0.7 + p / mass;
         assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
-        let charged = Link { turn: 0.0, paid: drag * link.charged, ..link };
-        let found = charged.search(0.7, h, &|gap| [drag * gap, drag]);
+        let (mut link, mut path) = (link, path);
+        let found = link.search(&mut path, 0.7, h, &|gap| [drag * gap, drag]);
         assert!((found / p - 1.0).abs() < 1e-12);
     }
 }

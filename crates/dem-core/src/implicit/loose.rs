@@ -1,12 +1,12 @@
 //! Links that are solved for one at a time: with walls, across the borders of chunks, with more to
 //! them than a drag along the line of centres and one across it, and what is left over.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
-use super::link::{Body, Change, Inverse, Link, Met, Two, middle};
+use super::link::{Body, Change, Inverse, Link, Met, New, Path, Remembered, Two, add_momentum};
 use super::shear::{Coupled, Motion};
-use super::{Impulse, Links, Resist};
-use crate::chunk::List;
+use super::{Impulse, Links, Memory, Resist, Visit};
+use crate::chunk::{List, Sum};
 use crate::lane::{Lane, Vector};
 use crate::pairs::Geometry;
 use crate::particles::Velocity;
@@ -16,20 +16,18 @@ use crate::{Pair, PairTerm};
 /// Of a link that is nothing but its own record.
 const NOTHING_MORE: u32 = u32::MAX;
 
-/// As [`super::Charge`], of a link by itself.
-pub(crate) type ChargeLoose<'a> = dyn Fn(&Loose, f64) -> [f64; 2] + 'a;
-
 /// A link by itself.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Loose {
     pub(crate) slots: [u32; 2],
-    pub(crate) list: List,
-    pub(crate) index: u32,
+    list: List,
+    index: u32,
     /// Where there is more to it, or [`NOTHING_MORE`].
     more: u32,
     /// Whether the impulse along the normal has to be searched for.
     searched: bool,
     link: Link<f64>,
+    path: Path<f64>,
 }
 
 /// What not every link has: a wall, rolling friction, a drag on rolling.
@@ -46,37 +44,35 @@ pub(super) struct More {
 }
 
 impl Links {
-    /// Makes links by themselves of the pairs in `which`.
+    /// Makes a link by itself of pair `k`.
     #[inline(always)]
     pub(crate) fn add_loose<L: Lane>(
         &mut self,
         met: &Met<'_, L>,
-        which: u32,
+        (k, impulse): (usize, Impulse),
+        list: List,
         inverse: Inverse<'_>,
-        duration: f64,
+        times: [f64; 2],
     ) {
-        for k in (0..L::WIDTH).filter(|k| which >> k & 1 == 1) {
-            let resist = &met.resist;
-            let [slip, coupling, rolling] = resist.across;
-            let one = |lanes: L| lanes.unpack()[k];
-            let single = Met {
-                which: 1,
-                slots: [met.slots[k]],
-                list: met.list,
-                index: [met.index[k]],
-                geometry: &met.geometry.single(k),
-                resist: Resist {
-                    drag: one(resist.drag),
-                    clearance: one(resist.clearance),
-                    dashpot: one(resist.dashpot),
-                    pull: one(resist.pull),
-                    across: [one(slip), one(coupling), one(rolling)],
-                    rolling: one(resist.rolling),
-                },
-                impulses: [met.impulses[k]],
-            };
-            self.add_one(&single, inverse, duration);
-        }
+        let resist = met.resist;
+        let [slip, coupling, rolling] = resist.across;
+        let one = |lanes: L| lanes.unpack()[k];
+        let single = Met {
+            slots: [met.slots[k]],
+            index: [met.index[k]],
+            geometry: &met.geometry.single(k),
+            sideways: one(met.sideways),
+            resist: &Resist {
+                drag: one(resist.drag),
+                clearance: one(resist.clearance),
+                dashpot: one(resist.dashpot),
+                pull: one(resist.pull),
+                across: [one(slip), one(coupling), one(rolling)],
+                rolling: one(resist.rolling),
+            },
+            remembered: &met.remembered.single(k),
+        };
+        self.add_one(&single, list, &impulse, inverse, times);
     }
 
     /// Makes a link of a pair if anything resists in it.
@@ -91,41 +87,40 @@ impl Links {
     ) {
         let impulse = term.impulse(column).copied().unwrap_or_default();
         let geometry = Geometry::of(pair);
-        let resist = term.resist(pair, column, middle(&[impulse], &geometry, view.kick()));
-        let which = resist.any() & 1;
-        if let (0, Some(own)) = (which, term.impulse(column)) {
-            // Where nothing resists any more nothing is remembered either.
-            *own = Impulse::NONE;
+        let remembered = &Remembered::pack((), |_| impulse);
+        let resist = &term.resist(pair, column, remembered.middle(&geometry, view.kick()));
+        if resist.any() & 1 == 0 {
+            if let Some(own) = term.impulse(column) {
+                // Where nothing resists any more nothing is remembered either.
+                *own = Impulse::NONE;
+            }
+            return;
         }
-        let met = Met::<f64> {
-            which,
-            slots: [slots],
-            list,
-            index: [index],
-            geometry: &geometry,
-            resist,
-            impulses: [impulse],
-        };
+        let sideways = view.sideways::<f64>((), &[slots], geometry.separation_speed);
+        let (slots, index) = ([slots], [index]);
+        let met = Met::<f64> { slots, index, geometry: &geometry, sideways, resist, remembered };
         let inverse = Inverse { classes: view.inverse, class: view.class };
-        self.add_loose(&met, met.which, inverse, view.kick());
+        self.add_one(&met, list, &impulse, inverse, view.kick_and_drift());
     }
 
     #[inline(never)]
-    fn add_one(&mut self, met: &Met<'_, f64>, inverse: Inverse<'_>, duration: f64) {
-        let (mut link, rolls) = Link::new((), met, inverse, duration);
-        let [slots] = met.slots;
-        let wall = slots[0] == slots[1];
+    fn add_one(
+        &mut self,
+        met: &Met<'_, f64>,
+        list: List,
+        impulse: &Impulse,
+        inverse: Inverse<'_>,
+        times: [f64; 2],
+    ) {
+        let New { link, path, searched, rolls } = Link::new((), met, inverse, times);
+        let ([slots], [index]) = (met.slots, met.index);
         let mut more = NOTHING_MORE;
-        if wall {
-            // Its line of centres does not turn.
-            link.turn = 0.0;
-        }
-        if wall || rolls != 0 {
+        if slots[0] == slots[1] || rolls != 0 {
             more = self.more.len() as u32;
-            self.more.push(More::new(met, &link, duration));
+            self.more.push(More::new(met, impulse, &link, times[0]));
         }
-        let (list, index) = (met.list, met.index[0]);
-        self.loose.push(Loose { slots, list, index, more, searched: false, link });
+        let searched = searched != 0;
+        self.loose.push(Loose { slots, list, index, more, searched, link, path });
     }
 
     /// Takes the velocities of the walls, by the index of the pair with one.
@@ -145,52 +140,41 @@ impl Links {
         self.more.get(self.loose[k].more as usize).map_or(DVec3::ZERO, |more| more.wall)
     }
 
-    /// As [`Link::start`], of all of them; `first` is the slot of the first of the velocities.
-    pub(crate) fn start_loose(
-        &mut self,
-        velocities: &[Velocity],
-        pushed: &mut [Velocity],
-        first: u32,
-        drift: f64,
-    ) -> [f64; 2] {
+    /// Adds what the impulses that they remember do to `pushed`, whose first is that of slot
+    /// `first`; returns the sums that scale a start, of these pairs alone.
+    pub(crate) fn start_loose(&self, pushed: &mut [Sum], first: u32) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        for k in 0..self.loose.len() {
-            let wall = self.wall(k);
-            let loose = &mut self.loose[k];
-            let slots = loose.slots;
-            let two = take(velocities, slots, first, wall);
-            let mut push = take(pushed, slots, first, DVec3::ZERO);
-            let [a, b] = loose.link.start(&two, &mut push, drift);
-            let Loose { link, more, .. } = loose;
-            let turned = self.more.get(*more as usize).map_or(0.0, |more| {
+        for Loose { slots, more, link, .. } in &self.loose {
+            let [mut own, below] = link.start();
+            let [push, mut a, mut b] = link.momentum();
+            if let Some(more) = self.more.get(*more as usize) {
+                own = own - push.dot(vector(more.wall));
                 let couple = link.normal.cross(more.couple) * more.reduced + more.rolling;
-                turn(link, &mut push, couple);
-                couple.dot(two.first.w - two.second.w)
-            });
-            put(pushed, slots, first, &push);
-            sums = [sums[0] + a + turned, sums[1] + b];
+                (a, b) = (a + couple, b - couple);
+            }
+            let [push, a, b] = [push, a, b].map(|v| v.rows(())[0]);
+            add_momentum(pushed, *slots, first, push, [a, b]);
+            sums = [sums[0] + own, sums[1] + below];
         }
         sums
     }
 
-    /// A pass over all of them; `charge` is asked for a link and a gap.
+    /// A visit of all of them, as [`Links::pass_eights`].
     pub(crate) fn pass_loose(
         &mut self,
         velocities: &mut [Velocity],
         first: u32,
-        duration: f64,
-        charge: &ChargeLoose<'_>,
-        forward: bool,
+        visit: Visit,
+        memory: &mut dyn Memory,
     ) -> Change {
         let count = self.loose.len();
         let mut change = Change::default();
         for n in 0..count {
-            let k = if forward { n } else { count - 1 - n };
+            let k = if visit.forward { n } else { count - 1 - n };
             let mut two = take(velocities, self.loose[k].slots, first, self.wall(k));
-            change = change + self.relax(k, &mut two, duration, charge);
+            change = change + self.relax(k, &mut two, visit, memory);
             put(velocities, self.loose[k].slots, first, &two);
         }
-        self.share = 1.0;
         change
     }
 
@@ -201,69 +185,52 @@ impl Links {
         &mut self,
         k: usize,
         two: &mut Two<f64>,
-        duration: f64,
-        charge: &ChargeLoose<'_>,
+        visit: Visit,
+        memory: &mut dyn Memory,
     ) -> Change {
-        let loose = &mut self.loose[k];
-        loose.link.scale(self.share);
-        let link = &loose.link;
+        let Loose { list, index, more, searched, link, path, .. } = &mut self.loose[k];
+        link.scale(visit.share);
         let (speed, slip) = link.motion(two);
-        if !loose.searched && link.is_fast(speed) != 0 {
-            loose.searched = true;
-            loose.link.paid = charge(loose, loose.link.charged)[0];
-        }
-        let link = &loose.link;
-        let push = if loose.searched {
-            link.search(speed, duration, &|gap| charge(loose, gap))
+        *searched |= link.is_fast(speed) != 0;
+        let push = if *searched {
+            let charge = |gap: f64| memory.charge(*list, *index, gap);
+            link.search(path, speed, visit.duration, &charge)
         } else {
-            link.along.fit(speed, link.push)
+            link.along.change(speed, link.push)
         };
         let mut shear = link.slip.change(slip, link.shear);
-        let mut turned = Change::default();
-        if let Some(more) = self.more.get_mut(loose.more as usize) {
-            let (slipped, change) = more.relax(link, two, slip);
-            (shear, turned) = (shear + slipped, change);
+        let mut change = Change::default();
+        let mut more = self.more.get_mut(*more as usize);
+        if let Some(more) = &mut more {
+            more.scale(visit.share);
+            let (slipped, turned) = more.relax(link, two, slip);
+            (shear, change) = (shear + slipped, turned);
         }
-        turned + loose.link.change(two, push, shear)
-    }
-
-    /// What all of them are to remember.
-    pub(crate) fn close_loose(
-        &self,
-        velocities: &[Velocity],
-        first: u32,
-        duration: f64,
-        mut remember: impl FnMut(&Loose, Impulse),
-    ) {
-        for (k, loose) in self.loose.iter().enumerate() {
-            let two = take(velocities, loose.slots, first, self.wall(k));
-            let link = &loose.link;
-            let more = self.more.get(loose.more as usize);
-            let none = Vector::zero(());
-            let impulse = Impulse {
-                charged: link.charge_to(&two, duration),
-                normal: link.push,
-                shear: link.shear.unpack()[0],
-                couple: more.map_or(none, |more| more.couple).unpack()[0],
-                rolling: more.map_or(none, |more| more.rolling).unpack()[0],
-            };
-            remember(loose, impulse);
+        link.change(two, push, shear);
+        if visit.forward {
+            return change;
         }
-    }
-
-    /// Scales what all pairs remember; the impulses of most of them when they are next looked at.
-    pub(crate) fn scale(&mut self, share: f64) {
-        self.share = share;
-        for more in &mut self.more {
-            more.couple = more.couple * share;
-            more.rolling = more.rolling * share;
+        if let Some(own) = memory.impulse(*list, *index) {
+            own.charged = link.charge_to(speed, push);
+            own.normal = link.push as f32;
+            own.shear = single(link.shear);
+            let none = Vec3::ZERO;
+            (own.couple, own.rolling) =
+                more.map_or((none, none), |more| (single(more.couple), single(more.rolling)));
         }
+        change + link.amount(push, shear)
     }
 }
 
 impl More {
-    fn new(met: &Met<'_, f64>, link: &Link<f64>, duration: f64) -> Self {
-        let (g, [impulse], resist) = (met.geometry, &met.impulses, &met.resist);
+    /// Scales what it remembers.
+    fn scale(&mut self, share: f64) {
+        self.couple = self.couple * share;
+        self.rolling = self.rolling * share;
+    }
+
+    fn new(met: &Met<'_, f64>, impulse: &Impulse, link: &Link<f64>, duration: f64) -> Self {
+        let (g, resist) = (met.geometry, met.resist);
         let [[mi, ti], [mj, tj]] = link.inverse;
         let ([a, b], [r, q], normal) = (g.levers, g.radii, g.normal);
         let reduced = if q == f64::INFINITY { r } else { r * q / (r + q) };
@@ -275,8 +242,8 @@ impl More {
             let motion = Motion { slip: g.slip, rolling: g.spin.cross(normal) * reduced };
             Coupled::new(resist.across, motion, duration, mobility)
         });
-        let flat = |v: DVec3| {
-            let v = Vector { x: v.x, y: v.y, z: v.z };
+        let flat = |v: Vec3| {
+            let v = vector(v.as_dvec3());
             v - normal * v.dot(normal)
         };
         Self {
@@ -334,6 +301,10 @@ fn turn(link: &Link<f64>, two: &mut Two<f64>, couple: Vector<f64>) {
     let [[_, ti], [_, tj]] = link.inverse;
     two.first.w += couple * ti;
     two.second.w = two.second.w - couple * tj;
+}
+
+fn single(v: Vector<f64>) -> Vec3 {
+    Vec3::new(v.x as f32, v.y as f32, v.z as f32)
 }
 
 fn vector(v: DVec3) -> Vector<f64> {

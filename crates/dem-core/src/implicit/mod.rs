@@ -8,15 +8,16 @@ mod normal;
 mod shear;
 mod term;
 
-use glam::DVec3;
+use glam::Vec3;
 
+use crate::chunk::List;
 use crate::lane::Lane;
 
 pub(crate) use colours::Colours;
-use eight::Eight;
-pub(crate) use eight::{EIGHT, Task, work};
-pub(crate) use link::{Change, Inverse, Met, middle};
-pub(crate) use loose::Loose;
+pub(crate) use eight::{EIGHT, Visit};
+use eight::{Eight, Paths};
+pub(crate) use link::{Change, Inverse, Met, Remembered};
+use loose::{Loose, More};
 pub use term::Implicit;
 
 /// What resists the relative motion of a pair, or of several side by side, for [`Implicit`].
@@ -102,20 +103,21 @@ impl<L: Lane> std::ops::Add for Resist<L> {
     }
 }
 
-/// What a pair remembers of the impulses that resisted its motion in the last step: where the next
-/// step's search for them starts, and how far the gap has been paid for.
+/// What a pair remembers of the impulses that resisted its motion in the last step: how far the gap
+/// has been paid for, and where the next step's search starts. Single precision is enough for that:
+/// the search ends where it ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impulse {
     /// The gap up to which the drag has been charged, m; infinite before the first step.
     pub charged: f64,
     /// Along the line of centres, N s, positive when it drives the bodies apart.
-    pub normal: f64,
+    pub normal: f32,
     /// Across it, on the first body at the point of contact, N s.
-    pub shear: DVec3,
+    pub shear: Vec3,
     /// Of the rolling drag: a torque R* n × this on the first body, N s.
-    pub couple: DVec3,
+    pub couple: Vec3,
     /// Of rolling friction, on the first body, N m s.
-    pub rolling: DVec3,
+    pub rolling: Vec3,
 }
 
 impl Impulse {
@@ -123,9 +125,9 @@ impl Impulse {
     pub const NONE: Self = Self {
         charged: f64::INFINITY,
         normal: 0.0,
-        shear: DVec3::ZERO,
-        couple: DVec3::ZERO,
-        rolling: DVec3::ZERO,
+        shear: Vec3::ZERO,
+        couple: Vec3::ZERO,
+        rolling: Vec3::ZERO,
     };
 }
 
@@ -146,18 +148,28 @@ pub struct Passes {
     pub at_most: u64,
 }
 
+/// What the pairs of a list remember.
+pub(crate) trait Memory {
+    /// The drag's impulse up to a gap and the drag there.
+    fn charge(&self, list: List, index: u32, gap: f64) -> [f64; 2];
+
+    /// Where the impulses of a pair are kept.
+    fn impulse(&mut self, list: List, index: u32) -> Option<&mut Impulse>;
+}
+
 /// The links of a list.
 #[derive(Debug, Default)]
 pub(crate) struct Links {
-    /// What the impulses are still to be scaled by.
-    pub(crate) share: f64,
     /// Those behind what is taken are left over from an earlier step: to write all of them anew would
     /// take longer than to use them.
     all_eights: Vec<Eight>,
+    all_paths: Vec<Paths>,
     /// How many places for links among eights are taken.
     taken: usize,
     pub(crate) loose: Vec<Loose>,
-    more: Vec<loose::More>,
+    more: Vec<More>,
+    /// The sums that scale a start, of the links that lie side by side, lane by lane.
+    start: [[f64; EIGHT]; 2],
 }
 
 impl Links {
@@ -165,6 +177,7 @@ impl Links {
         self.taken = 0;
         self.loose.clear();
         self.more.clear();
+        self.start = [[0.0; EIGHT]; 2];
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -172,29 +185,8 @@ impl Links {
         self.loose.is_empty() && eights.iter().all(|eight| eight.which == 0)
     }
 
-    /// Makes links of pairs of which no two have a body in common.
-    #[inline(always)]
-    pub(crate) fn add<L: Lane>(
-        &mut self,
-        permit: L::Permit,
-        met: &Met<'_, L>,
-        inverse: Inverse<'_>,
-        duration: f64,
-    ) {
-        let Self { all_eights, taken, .. } = self;
-        let more = eight::add(all_eights, taken, permit, met, inverse, duration);
-        self.add_loose(met, more, inverse, duration);
-    }
-
-    /// The links that lie side by side.
-    pub(crate) fn eights(&mut self) -> &mut [Eight] {
-        &mut self.all_eights[..self.taken.div_ceil(EIGHT)]
-    }
-
-    /// Calls `remember` with the index and the impulses of every link that lies among others.
-    pub(crate) fn close_eights(&self, mut remember: impl FnMut(u32, Impulse)) {
-        for eight in &self.all_eights[..self.taken.div_ceil(EIGHT)] {
-            eight.impulses().for_each(|(index, impulse)| remember(index, impulse));
-        }
+    /// The sums that scale a start, of the links that lie side by side.
+    pub(crate) fn start_eights(&self) -> [f64; 2] {
+        self.start.map(|lanes| lanes.iter().sum())
     }
 }

@@ -1,10 +1,14 @@
 //! The impulse along the line of centres that one pair wants.
 
+use super::link::Path;
 use crate::lane::Lane;
 
 /// A pair is taken to be linear over a step in which its gap changes by less than this share of
 /// its clearance: the error is below 1e-6 of the drag's impulse.
 pub(super) const LINEAR: f64 = 1.5e-3;
+/// Where a pair has been searched for it is taken to be linear around what was found, as long as its
+/// gap changes by less than this share of its clearance from that: the error is that of [`LINEAR`].
+pub(super) const NEAR: f64 = 5e-5;
 /// The search for a speed ends with a step that changes the gap by less than this share of its
 /// clearance: what is left is the square of it.
 pub(super) const STEP: f64 = 1e-5;
@@ -68,17 +72,11 @@ pub(super) struct Normal<L> {
 }
 
 impl<L: Lane> Normal<L> {
-    /// The impulse that fits the speed of separation, which `now` is a part of.
+    /// By how much the impulse `now` has to change to fit the speed of separation, which it is a part
+    /// of.
     #[inline(always)]
-    pub(super) fn fit(&self, speed: L, now: L) -> L {
-        now - (self.offset + self.slope * speed + now) * self.answer
-    }
-
-    /// The terms of the sums that scale a start: p (a + offset/slope) and p²/slope.
-    #[inline(always)]
-    pub(super) fn start(&self, now: L, speed: L) -> [L; 2] {
-        let soft = softness(self.slope);
-        [now * (speed + soft * self.offset), soft * now * now]
+    pub(super) fn change(&self, speed: L, now: L) -> L {
+        -((self.offset + self.slope * speed + now) * self.answer)
     }
 }
 
@@ -99,22 +97,26 @@ pub(super) fn softness<L: Lane>(slope: L) -> L {
 /// to the speed of separation along the normal at the step's start.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Along {
-    pub(super) gap: f64,
-    /// G(charged).
-    pub(super) paid: f64,
-    pub(super) rate: f64,
-    pub(super) turn: f64,
-    pub(super) weight: f64,
+    /// S + θ h κ, m.
+    pub(super) to: f64,
+    /// θ h, s.
+    pub(super) step: f64,
     pub(super) duration: f64,
-    pub(super) dashpot: f64,
-    pub(super) pull: f64,
+    pub(super) path: Path<f64>,
     /// 1/m_i + 1/m_j, 1/kg.
     pub(super) mobility: f64,
 }
 
+/// A speed that fits, and the tangent there: by how much the impulse falls with it, N s per m/s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fit {
+    pub(super) speed: f64,
+    pub(super) slope: f64,
+}
+
 impl Along {
-    /// The impulse that fits the speed of separation `speed`, which `now` is a part of; `charge`
-    /// gives the drag's impulse from contact to a gap, and the drag there.
+    /// The speed of separation that fits where `speed` is that of now and `now` the impulse in it;
+    /// `charge` gives the drag's impulse from contact to a gap, and the drag there.
     ///
     /// Newton's method from that speed, whose error is squared in every step, until a step is at
     /// most `small`. Where that does not do, between bounds: what is searched for grows with the
@@ -125,63 +127,62 @@ impl Along {
         now: f64,
         small: f64,
         charge: &dyn Fn(f64) -> [f64; 2],
-    ) -> f64 {
+    ) -> Fit {
         let own = speed - now * self.mobility;
         let mut a = speed;
         for _ in 0..TRIES {
-            let [f, rise] = self.lack(own, a, charge);
-            let next = a - f / rise;
+            let [f, slope] = self.lack(own, a, charge);
+            let next = a - f / (slope + 1.0 / self.mobility);
             if (next - a).abs() <= small && self.is_capped(a) == self.is_capped(next) {
-                return (next - own) / self.mobility;
+                return Fit { speed: next, slope };
             }
             a = next;
         }
         let other = own - self.mobility * self.lack(own, own, charge)[0];
         let (mut low, mut high) = (own.min(other), own.max(other));
-        let small = TOLERANCE * (own.abs() + self.rate.abs());
+        let small = TOLERANCE * (own.abs() + self.path.before.abs());
         // Not `clamp`, which panics where a number is not finite.
-        a = speed.max(low).min(high);
+        let mut fit = Fit { speed: speed.max(low).min(high), slope: 0.0 };
         for _ in 0..MOST_ITERATIONS {
-            let [f, rise] = self.lack(own, a, charge);
+            let a = fit.speed;
+            let [f, slope] = self.lack(own, a, charge);
             if f.is_nan() {
-                return f;
+                return Fit { speed: f, slope };
             }
             if f > 0.0 {
                 high = a
             } else {
                 low = a
             }
-            let newton = a - f / rise;
+            let newton = a - f / (slope + 1.0 / self.mobility);
             let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            let done = (next - a).abs() <= small;
-            a = next;
-            if done {
+            fit = Fit { speed: next, slope };
+            if (next - a).abs() <= small {
                 break;
             }
         }
-        (a - own) / self.mobility
+        fit
     }
 
     /// What is wrong with a speed a of separation, N s, where the pair's own impulse alone changes it
-    /// from `own`, and how that grows with a.
+    /// from `own`, and by how much the impulse falls with a.
     fn lack(&self, own: f64, a: f64, charge: &dyn Fn(f64) -> [f64; 2]) -> [f64; 2] {
-        let step = self.weight * self.duration;
-        let [to, drag] = charge(self.gap + step * (a + self.turn));
+        let Self { to, step, duration, path, .. } = *self;
+        let [impulse, drag] = charge(to + step * a);
         let capped = self.is_capped(a);
         let (pull, rise) =
-            if capped { (self.pull, 0.0) } else { (self.pull_at(a), step * self.dashpot) };
-        let resisted = to - self.paid + self.duration * pull;
-        [(a - own) / self.mobility + resisted, 1.0 / self.mobility + step * drag + rise]
+            if capped { (path.pull, 0.0) } else { (self.pull_at(a), step * path.dashpot) };
+        let resisted = impulse - path.paid + duration * pull;
+        [(a - own) / self.mobility + resisted, step * drag + rise]
     }
 
     /// The dashpot's pull without a bound, N.
     fn pull_at(&self, a: f64) -> f64 {
-        let before = (1.0 - self.weight) * self.rate;
-        self.dashpot * (before + self.weight * (a + self.turn))
+        self.path.dashpot * (self.path.before + self.step / self.duration * a)
     }
 
     fn is_capped(&self, a: f64) -> bool {
-        self.pull_at(a) > self.pull
+        self.pull_at(a) > self.path.pull
     }
 }
 

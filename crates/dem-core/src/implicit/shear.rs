@@ -1,6 +1,6 @@
 //! The impulses across the line of centres that one pair wants.
 
-use super::normal::{softness, weight};
+use super::normal::weight;
 use crate::lane::{Lane, Vector};
 
 /// Slip and rolling velocity of a pair, or the impulses on them.
@@ -24,13 +24,6 @@ impl<L: Lane> Slip<L> {
     #[inline(always)]
     pub(super) fn change(&self, slip: Vector<L>, now: Vector<L>) -> Vector<L> {
         -((self.offset + slip * self.slope + now) * self.answer)
-    }
-
-    /// The sums that scale a start, as in [`super::normal::Normal::start`].
-    #[inline(always)]
-    pub(super) fn start(&self, now: Vector<L>, slip: Vector<L>) -> [L; 2] {
-        let soft = softness(self.slope);
-        [now.dot(slip) + soft * now.dot(self.offset), soft * now.dot(now)]
     }
 }
 

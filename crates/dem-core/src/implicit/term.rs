@@ -12,7 +12,7 @@ use crate::{Class, EachColumn, Encounter, Load, Pair, PairTerm, TermError, Visit
 /// step is its integral over the gap that was travelled, so that m* v + G(S) is kept to rounding,
 /// however fast a thin film closes.
 ///
-/// It costs a column of 88 bytes a pair, and two passes over all pairs or more. Terms hand over what
+/// It costs a column of 48 bytes a pair, and two passes over all pairs or more. Terms hand over what
 /// they give in [`PairTerm::resist`].
 ///
 /// # Sources

@@ -8,12 +8,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Simulation, each, parallel};
-use crate::chunk::{Chunk, List, Note, WallPair};
-use crate::implicit::{Change, Impulse, Inverse, Links, Loose, Passes, Task, work};
+use super::{Simulation, parallel};
+use crate::chunk::{Chunk, List, Note, Sum, WallPair};
+use crate::implicit::{Change, Impulse, Inverse, Memory, Passes, Visit};
 use crate::integrate::{Moved, drift};
 use crate::particles::Velocity;
-use crate::{Boundary, DVec3, PairTerm, wall_pass};
+use crate::{Boundary, PairTerm, wall_pass};
 
 /// Rounds stop when their second half changes the impulses by less than this share of them.
 const SETTLED: f64 = 1e-3;
@@ -34,7 +34,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let start = Instant::now();
         if self.chunks.iter().any(|c| !c.links.is_empty() || !c.links_across.is_empty()) {
             self.meet_walls(h);
-            self.resist([kick, h]);
+            self.resist(kick);
         }
         self.profile.resistance += start.elapsed();
         let start = Instant::now();
@@ -103,24 +103,21 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
-    fn resist(&mut self, times: [f64; 2]) {
+    fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
         for round in 1..=MOST_ROUNDS {
             self.passes.passes += 2;
             let first = round == 1;
-            self.inside(times, |solving, chunk, velocities| {
-                if first {
-                    solving.start_inside(chunk, velocities);
-                }
-                solving.pass_inside(chunk, velocities, true)
+            self.inside(|solving, chunk, velocities| {
+                let share = if first { solving.start(chunk, velocities) } else { 1.0 };
+                solving.pass(chunk, velocities, Visit { duration, share, forward: true })
             });
-            if first {
-                self.start_across(times);
-            }
-            self.across(times, true);
-            let across = self.across(times, false);
-            let inside = self.inside(times, |solving, chunk, velocities| {
-                solving.pass_inside(chunk, velocities, false)
+            let share = if first { self.start_across() } else { 1.0 };
+            self.across(Visit { duration, share, forward: true });
+            let back = Visit { duration, share: 1.0, forward: false };
+            let across = self.across(back);
+            let inside = self.inside(|solving, chunk, velocities| {
+                solving.pass(chunk, velocities, back)
             });
             let change = inside + across;
             let settled = change.changed <= SETTLED * change.all;
@@ -129,22 +126,16 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             }
             self.passes.at_most += u64::from(round == MOST_ROUNDS);
         }
-        self.inside(times, |solving, chunk, velocities| {
-            solving.close_inside(chunk, velocities);
-            Change::default()
-        });
-        self.close_across(times);
     }
 
     /// Does something with every chunk and its velocities.
     fn inside(
         &mut self,
-        times: [f64; 2],
         work: impl Fn(&Solving<'_, T>, &mut Chunk<T::Column>, &mut [Velocity]) -> Change + Sync + Send,
     ) -> Change {
         let Self { chunks, particles, term, lists, settings, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
-        let solving = Solving { term, inverse, times };
+        let solving = Solving { term, inverse };
         let velocities = &mut particles.velocities;
         let one =
             |(chunk, velocities): (&mut _, &mut [Velocity])| work(&solving, chunk, velocities);
@@ -158,47 +149,45 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         changes.into_iter().fold(Change::default(), |a, b| a + b)
     }
 
-    /// As [`Solving::start_inside`] for the pairs across chunks, all with one share.
-    fn start_across(&mut self, times: [f64; 2]) {
-        let Self { chunks, particles, term, inverse, pushed, .. } = self;
+    /// As [`Solving::start`] for the pairs across chunks, all with one share.
+    fn start_across(&mut self) -> f64 {
+        let Self { chunks, particles, pushed, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
-        let solving = Solving { term: &*term, inverse, times };
-        let lists = chunks.iter_mut().map(|chunk| &mut chunk.links_across);
-        solving.start(lists, &mut particles.velocities, pushed, 0);
+        pushed.resize(particles.velocities.len(), Sum::default());
+        let mut sums = [0.0; 2];
+        let mut slots = Vec::new();
+        for links in chunks.iter().map(|chunk| &chunk.links_across) {
+            let [own, below] = links.start_loose(pushed, 0);
+            sums = [sums[0] + own, sums[1] + below];
+            slots.extend(links.loose.iter().flat_map(|loose| loose.slots));
+        }
+        slots.sort_unstable();
+        slots.dedup();
+        let bodies = slots.iter().map(|&slot| (slot as usize, inverse.of_slot(slot)));
+        for (slot, body) in bodies.clone() {
+            sums = add_motion(sums, &particles.velocities[slot], &pushed[slot], body);
+        }
+        let share = share(sums);
+        for (slot, body) in bodies {
+            give(&mut particles.velocities[slot], &std::mem::take(&mut pushed[slot]), body, share);
+        }
+        share
     }
 
     /// A pass over the pairs across chunks.
-    fn across(&mut self, [duration, _]: [f64; 2], forward: bool) -> Change {
+    fn across(&mut self, visit: Visit) -> Change {
         let Self { chunks, particles, term, .. } = self;
-        let velocities = &mut particles.velocities[..];
+        let (term, velocities) = (&*term, &mut particles.velocities[..]);
         let one = |change: Change, chunk: &mut Chunk<T::Column>| {
             let Chunk { links_across, across, .. } = chunk;
-            let charge =
-                |loose: &Loose, gap: f64| term.charge(&across.columns[loose.index as usize], gap);
-            change + links_across.pass_loose(velocities, 0, duration, &charge, forward)
+            let memory = &mut Remembering { term, columns: &mut across.columns, walls: &mut [] };
+            change + links_across.pass_loose(velocities, 0, visit, memory)
         };
-        if forward {
+        if visit.forward {
             chunks.iter_mut().fold(Change::default(), one)
         } else {
             chunks.iter_mut().rev().fold(Change::default(), one)
         }
-    }
-
-    fn close_across(&mut self, [duration, _]: [f64; 2]) {
-        let Self { chunks, particles, term, settings, .. } = self;
-        let (term, velocities) = (&*term, &particles.velocities);
-        each(chunks, settings.threads, |chunk| {
-            let Chunk { links_across, across, .. } = chunk;
-            links_across.close_loose(velocities, 0, duration, |loose, impulse| {
-                remember(term, &mut across.columns[loose.index as usize], impulse);
-            });
-        });
-    }
-}
-
-fn remember<T: PairTerm>(term: &T, column: &mut T::Column, impulse: Impulse) {
-    if let Some(own) = term.impulse(column) {
-        *own = impulse;
     }
 }
 
@@ -206,101 +195,96 @@ fn remember<T: PairTerm>(term: &T, column: &mut T::Column, impulse: Impulse) {
 struct Solving<'a, T> {
     term: &'a T,
     inverse: Inverse<'a>,
-    /// Duration of the impulses, and of the drift after them, s.
-    times: [f64; 2],
 }
 
 impl<T: PairTerm> Solving<'_, T> {
     /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
-    /// best multiple of them as a guess of this step's.
-    fn start_inside(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
+    /// best multiple of them as a guess of this step's, which is returned.
+    fn start(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) -> f64 {
         let Chunk { links, range, pushed, .. } = chunk;
-        self.start([links], velocities, pushed, range.start);
-    }
-
-    /// `first` is the slot of the first of the velocities; `pushed` is scratch.
-    fn start<'l>(
-        &self,
-        lists: impl IntoIterator<Item = &'l mut Links>,
-        velocities: &mut [Velocity],
-        pushed: &mut Vec<Velocity>,
-        first: u32,
-    ) {
-        let [_, drift] = self.times;
-        pushed.clear();
-        pushed.resize(velocities.len(), Velocity::new(DVec3::ZERO, DVec3::ZERO));
-        let mut sums = [0.0; 2];
-        let mut started = Vec::new();
-        for links in lists {
-            let own = work(Task::Start { drift, pushed }, links.eights(), velocities, first);
-            let loose = links.start_loose(velocities, pushed, first, drift);
-            sums = std::array::from_fn(|k| sums[k] + (own[k] + loose[k]));
-            started.push(links);
+        if links.is_empty() {
+            return 0.0;
         }
-        let Inverse { classes, class } = self.inverse;
-        let moved =
-            pushed.iter().zip(&class[first as usize..]).fold(0.0, |moved, (push, &class)| {
-                let [m, i] = classes[usize::from(class)];
-                moved + push.v.vector().length_squared() / m + push.w.vector().length_squared() / i
-            });
-        let below = moved + sums[1];
-        let share = if below > 0.0 { (-sums[0] / below).clamp(0.0, 1.0) } else { 0.0 };
-        for (velocity, push) in velocities.iter_mut().zip(pushed) {
-            velocity.v.add(push.v.0.map(|v| share * v));
-            velocity.w.add(push.w.0.map(|w| share * w));
+        let [mut own, mut below] = links.start_loose(pushed, range.start);
+        let [side_by_side, below_side_by_side] = links.start_eights();
+        (own, below) = (own + side_by_side, below + below_side_by_side);
+        let mut sums = [own, below];
+        let bodies = range.clone().map(|slot| self.inverse.of_slot(slot));
+        for ((velocity, push), body) in velocities.iter().zip(&*pushed).zip(bodies.clone()) {
+            sums = add_motion(sums, velocity, push, body);
         }
-        started.into_iter().for_each(|links| links.scale(share));
+        let share = share(sums);
+        for ((velocity, push), body) in velocities.iter_mut().zip(pushed).zip(bodies) {
+            give(velocity, &std::mem::take(push), body, share);
+        }
+        share
     }
 
     /// A pass over the pairs inside a chunk and with walls.
-    fn pass_inside(
+    fn pass(
         &self,
         chunk: &mut Chunk<T::Column>,
         velocities: &mut [Velocity],
-        forward: bool,
+        visit: Visit,
     ) -> Change {
-        let Self { term, times: [duration, _], .. } = *self;
         let Chunk { links, inside, walls, range, .. } = chunk;
-        let charge_loose =
-            |loose: &Loose, gap: f64| term.charge(column(loose, walls, &inside.columns), gap);
-        let charge = |index: u32, gap: f64| term.charge(&inside.columns[index as usize], gap);
-        let (first, share) = (range.start, links.share);
-        let one_by_one = |links: &mut Links, velocities: &mut [Velocity]| {
-            links.pass_loose(velocities, first, duration, &charge_loose, forward)
-        };
-        let mut change = Change::default();
-        if !forward {
-            change = one_by_one(links, velocities);
+        let (columns, first) = (&mut inside.columns[..], range.start);
+        let memory = &mut Remembering { term: self.term, columns, walls };
+        if visit.forward {
+            let change = links.pass_eights(velocities, first, visit, memory);
+            change + links.pass_loose(velocities, first, visit, memory)
+        } else {
+            let change = links.pass_loose(velocities, first, visit, memory);
+            change + links.pass_eights(velocities, first, visit, memory)
         }
-        let task = Task::Pass { duration, share, forward, charge: &charge };
-        let [changed, all] = work(task, links.eights(), velocities, first);
-        change = change + Change { changed, all };
-        if forward {
-            change = change + one_by_one(links, velocities);
-        }
-        change
-    }
-
-    /// Writes the impulses inside a chunk and with walls back to the columns of the pairs.
-    fn close_inside(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
-        let Self { term, times: [duration, _], .. } = *self;
-        let mut links = std::mem::take(&mut chunk.links);
-        let first = chunk.range.start;
-        work(Task::Close { duration }, links.eights(), velocities, first);
-        links.close_eights(|index, impulse| {
-            remember(term, chunk.column(List::Inside, index), impulse);
-        });
-        links.close_loose(velocities, first, duration, |loose, impulse| {
-            remember(term, chunk.column(loose.list, loose.index), impulse);
-        });
-        chunk.links = links;
     }
 }
 
-/// The column of a link inside a chunk or with a wall.
-fn column<'a, C>(loose: &Loose, walls: &'a [WallPair<C>], inside: &'a [C]) -> &'a C {
-    match loose.list {
-        List::Wall { memory } => &walls[loose.index as usize].memories[memory as usize].column,
-        _ => &inside[loose.index as usize],
+/// Adds what a particle has to do with the two sums that scale a start: what the impulses do to it
+/// times its velocity, and times the velocity that they give. `[m, i]` are 1/m and 1/I.
+#[inline(always)]
+fn add_motion([own, below]: [f64; 2], velocity: &Velocity, push: &Sum, [m, i]: [f64; 2]) -> [f64; 2] {
+    let (p, l) = (push.force.vector(), push.torque.vector());
+    let (v, w) = (velocity.v.vector(), velocity.w.vector());
+    let moved = p.length_squared() * m + l.length_squared() * i;
+    [own + (p.dot(v) + l.dot(w)), below + moved]
+}
+
+/// The multiple of the remembered impulses that lowers the energy most.
+fn share([own, below]: [f64; 2]) -> f64 {
+    if below > 0.0 { (-own / below).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Gives a share of impulses to a particle.
+#[inline(always)]
+fn give(velocity: &mut Velocity, push: &Sum, [m, i]: [f64; 2], share: f64) {
+    let [m, i] = [share * m, share * i];
+    velocity.v.add(push.force.0.map(|p| m * p));
+    velocity.w.add(push.torque.0.map(|l| i * l));
+}
+
+/// The columns of the pairs of a list, and of those with walls.
+struct Remembering<'a, T: PairTerm> {
+    term: &'a T,
+    columns: &'a mut [T::Column],
+    walls: &'a mut [WallPair<T::Column>],
+}
+
+impl<T: PairTerm> Memory for Remembering<'_, T> {
+    fn charge(&self, list: List, index: u32, gap: f64) -> [f64; 2] {
+        let index = index as usize;
+        let column = match list {
+            List::Wall { memory } => &self.walls[index].memories[memory as usize].column,
+            _ => &self.columns[index],
+        };
+        self.term.charge(column, gap)
+    }
+
+    fn impulse(&mut self, list: List, index: u32) -> Option<&mut Impulse> {
+        let index = index as usize;
+        self.term.impulse(match list {
+            List::Wall { memory } => &mut self.walls[index].memories[memory as usize].column,
+            _ => &mut self.columns[index],
+        })
     }
 }

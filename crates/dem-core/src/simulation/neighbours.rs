@@ -216,7 +216,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         let rolls = !self.rolls.is_empty();
         self.chunks = (0..n)
             .step_by(size)
-            .map(|first| Chunk::new(first..n.min(first + size as u32), rolls))
+            .map(|first| Chunk::new(first..n.min(first + size as u32), [rolls, T::IMPLICIT]))
             .collect();
         carried.hand_out(self);
     }

@@ -255,6 +255,19 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
+    /// The drag's impulse from contact to a gap, N s, and the drag there, N s/m. In overlap the
+    /// drag fades, where it does, by that at contact.
+    pub(super) fn charge(&self, hold: &Hold, gap: f64) -> [f64; 2] {
+        let seat = hold.seat as usize;
+        if let (true, Some(&Row([_, drag, _, fade]))) = (gap < 0.0, self.contact.get(seat)) {
+            if fade > 0.0 && fade < f64::INFINITY {
+                let less = (gap * fade).exp_m1();
+                return [drag / fade * less, drag * (1.0 + less)];
+            }
+        }
+        self.far.get(seat).map_or([0.0; 2], |far| far.curves.1.charge(gap))
+    }
+
     /// What is kept of a pair's bridge.
     #[inline]
     pub(super) fn held(&self, hold: &Hold) -> Option<&Far<C, N, S>> {

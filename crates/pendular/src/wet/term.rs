@@ -154,8 +154,7 @@ where
     }
 
     fn charge(&self, column: &Hold, gap: f64) -> [f64; 2] {
-        let far = self.shelf.held(column);
-        far.map_or([0.0; 2], |far| far.curves.1.charge(gap))
+        self.shelf.charge(column, gap)
     }
 
     fn load_on_limit(&self, pair: &Pair, column: &Hold) -> StabilityLoad {
