@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::PairTerm;
+use crate::Resist;
 use crate::chunk::{List, Note, Roll, Sum};
 use crate::implicit::{Colours, Impulse, Inverse, Links, Met, Remembered};
-use crate::Resist;
 use crate::lane::{Lane, Vector};
 use crate::lists::Entry;
 use crate::pairs::{Columns, Geometry, Loads, Pairs, Picked};

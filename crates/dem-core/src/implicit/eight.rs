@@ -3,10 +3,10 @@
 
 use glam::Vec3;
 
-use super::link::{Body, Change, Inverse, Link, Met, New, Path, Two, add_momentum};
+use super::link::{Body, Change, Course, Link, New, Path, Two, add_momentum};
 use super::normal::Normal;
 use super::shear::Slip;
-use super::{Links, Memory};
+use super::{Inverse, Links, Memory, Met};
 use crate::chunk::{List, Sum};
 use crate::lane::{Kernel, Lane, Vector, in_widest};
 use crate::particles::{Row, Velocity};
@@ -106,8 +106,8 @@ impl Eight {
     }
 
     #[inline(always)]
-    fn set_along<L: Lane>(&mut self, at: usize, link: &Link<L>) {
-        let Normal { offset, slope, answer } = link.along;
+    fn set_along<L: Lane>(&mut self, at: usize, along: &Normal<L>) {
+        let Normal { offset, slope, answer } = *along;
         self.set(at, 10, offset);
         self.set(at, 11, slope);
         self.set(at, 12, answer);
@@ -117,7 +117,7 @@ impl Eight {
     fn store<L: Lane>(&mut self, at: usize, link: &Link<L>) {
         let Link { normal, levers, inverse, slip, .. } = *link;
         self.set_impulses(at, link);
-        self.set_along(at, link);
+        self.set_along(at, &link.along);
         for (n, number) in [(0, normal.x), (1, normal.y), (2, normal.z)] {
             self.set(at, n, number);
         }
@@ -135,6 +135,21 @@ impl Eight {
         }
         for (n, number) in [(22, link.step), (23, link.room), (24, link.apart)] {
             self.set(at, n, number);
+        }
+    }
+
+    /// What a search for the impulse of link `k` takes.
+    #[inline(always)]
+    fn course(&self, paths: &Paths, k: usize, share: f64) -> Course {
+        let number = |n: usize| self.numbers[n][k];
+        Course {
+            push: share * number(PUSH),
+            along: Normal { offset: number(10), slope: number(11), answer: number(12) },
+            to: number(21),
+            step: number(22),
+            room: number(23),
+            mobility: number(5) + number(7),
+            path: paths.one(k),
         }
     }
 
@@ -198,7 +213,7 @@ impl Links {
         times: [f64; 2],
         (pushed, first): (&mut [Sum], u32),
     ) -> u32 {
-        let New { link, path, searched, rolls } = Link::new(permit, met, inverse, times);
+        let New { link, path, searched, rolls } = New::of(permit, met, inverse, times);
         let (last, at) = (self.taken / EIGHT, self.taken % EIGHT);
         if last == self.all_eights.len() {
             self.all_eights.push(Eight::NONE);
@@ -331,11 +346,10 @@ fn pass<L: Lane>(
         for k in (0..L::WIDTH).filter(|k| searched >> k & 1 == 1) {
             let index = eight.index[at + k];
             let charge = |gap: f64| memory.charge(List::Inside, index, gap);
-            let (mut one, mut path) = (eight.load::<f64>((), at + k), paths.one(at + k));
-            one.scale(share);
-            found[k] = one.search(&mut path, speeds[k], duration, &charge);
-            eight.set_along(at + k, &one);
-            paths.store(at + k, &path);
+            let mut course = eight.course(paths, at + k, share);
+            found[k] = course.search(speeds[k], duration, &charge);
+            eight.set_along(at + k, &course.along);
+            paths.store(at + k, &course.path);
         }
         push = L::pack(permit, &found, |one| *one);
     }

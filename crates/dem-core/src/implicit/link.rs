@@ -1,66 +1,10 @@
 //! What is solved for in one pair whose motion is resisted, or in several side by side.
 
-use super::normal::{Along, Fit, LINEAR, NEAR, Normal, STEP, softness, weight};
+use super::normal::{Along, Fit, LINEAR, NEAR, Normal, softness, weight};
 use super::shear::Slip;
-use super::{Impulse, Resist};
+use super::{Inverse, Met};
 use crate::chunk::Sum;
 use crate::lane::{Lane, Vector};
-use crate::pairs::Geometry;
-use crate::particles::Class;
-
-/// Pairs as they were read, side by side.
-pub(crate) struct Met<'a, L: Lane> {
-    /// Slots of the bodies; the second is that of the first again at a wall.
-    pub(crate) slots: L::Each<[u32; 2]>,
-    /// Where the pairs' columns stand.
-    pub(crate) index: L::Each<u32>,
-    pub(crate) geometry: &'a Geometry<L>,
-    /// Square of the speed across the line of centres, m²/s².
-    pub(crate) sideways: L,
-    pub(crate) resist: &'a Resist<L>,
-    pub(crate) remembered: &'a Remembered<L>,
-}
-
-/// What pairs remember of their [`Impulse`]s, without those on rolling.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Remembered<L> {
-    pub(super) charged: L,
-    push: L,
-    shear: Vector<L>,
-}
-
-impl<L: Lane> Remembered<L> {
-    #[inline(always)]
-    pub(crate) fn pack(permit: L::Permit, mut each: impl FnMut(usize) -> Impulse) -> Self {
-        let mut charged = L::each(|_| 0.0);
-        let rows = L::each(|k| {
-            let Impulse { charged: gap, normal, shear, .. } = each(k);
-            charged[k] = gap;
-            [f64::from(shear.x), f64::from(shear.y), f64::from(shear.z), f64::from(normal)]
-        });
-        let [x, y, z, push] = L::rows(permit, &rows, |row| *row);
-        let charged = L::pack(permit, &charged, |gap| *gap);
-        Self { charged, push, shear: Vector { x, y, z } }
-    }
-
-    /// The middle of what the gaps are expected to be charged for in this step.
-    #[inline(always)]
-    pub(crate) fn middle(&self, geometry: &Geometry<L>, duration: f64) -> L {
-        let permit = geometry.gap.permit();
-        let any = L::splat(permit, f64::INFINITY);
-        let charged = self.charged.if_less(any, self.charged, geometry.gap);
-        charged + L::splat(permit, 0.5 * duration) * geometry.separation_speed
-    }
-
-    /// Pair `k` alone.
-    #[inline(always)]
-    pub(super) fn single(&self, k: usize) -> Remembered<f64> {
-        let one = |lanes: L| lanes.unpack()[k];
-        let Vector { x, y, z } = self.shear;
-        let shear = Vector { x: one(x), y: one(y), z: one(z) };
-        Remembered { charged: one(self.charged), push: one(self.push), shear }
-    }
-}
 
 /// The impulses between two bodies, and what decides them.
 #[derive(Debug, Clone, Copy)]
@@ -97,11 +41,13 @@ pub(crate) struct Path<L> {
     pub(super) pull: L,
 }
 
-/// What new links are: the links, which of them are not linear and which resist rolling, one bit each.
+/// New links.
 pub(super) struct New<L> {
     pub(super) link: Link<L>,
     pub(super) path: Path<L>,
+    /// Which of them are not linear, one bit each.
     pub(super) searched: u32,
+    /// Which resist rolling: they have more to them.
     pub(super) rolls: u32,
 }
 
@@ -121,34 +67,6 @@ impl<L: Lane> std::ops::Add for Change<L> {
     }
 }
 
-/// 1/m and 1/I of every class, and the classes of the slots.
-#[derive(Clone, Copy)]
-pub(crate) struct Inverse<'a> {
-    pub(crate) classes: &'a [[f64; 2]],
-    pub(crate) class: &'a [u16],
-}
-
-impl Inverse<'_> {
-    /// Of all classes.
-    pub(crate) fn of(classes: &[Class]) -> Vec<[f64; 2]> {
-        classes.iter().map(|class| [1.0 / class.mass(), 1.0 / class.inertia()]).collect()
-    }
-
-    /// Of the body at a slot.
-    #[inline(always)]
-    pub(crate) fn of_slot(&self, slot: u32) -> [f64; 2] {
-        self.classes[usize::from(self.class[slot as usize])]
-    }
-
-    /// Of both bodies; a wall does not move.
-    #[inline(always)]
-    fn both(&self, [a, b]: [u32; 2]) -> [f64; 4] {
-        let [m, t] = self.of_slot(a);
-        let [n, u] = if a == b { [0.0; 2] } else { self.of_slot(b) };
-        [m, t, n, u]
-    }
-}
-
 /// Velocity and spin of a body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Body<L> {
@@ -163,16 +81,16 @@ pub(crate) struct Two<L> {
     pub(crate) second: Body<L>,
 }
 
-impl<L: Lane> Link<L> {
+impl<L: Lane> New<L> {
     /// Of pairs that resist, for impulses that act for `duration` s, before the positions move for
     /// `drift` s.
     #[inline(always)]
-    pub(super) fn new(
+    pub(super) fn of(
         permit: L::Permit,
         met: &Met<'_, L>,
         inverse: Inverse<'_>,
         [duration, drift]: [f64; 2],
-    ) -> New<L> {
+    ) -> Self {
         let Met { geometry, resist, remembered, .. } = met;
         let (zero, one) = (L::splat(permit, 0.0), L::splat(permit, 1.0));
         let (whole, any) = (L::splat(permit, duration), L::splat(permit, f64::INFINITY));
@@ -215,8 +133,9 @@ impl<L: Lane> Link<L> {
         let shear = remembered.shear - normal * remembered.shear.dot(normal);
         let room = resist.clearance * L::splat(permit, LINEAR / duration);
         let room = zero.if_less(resist.drag, room, any);
-        let cap = zero.if_less(resist.dashpot, resist.pull / (resist.dashpot + resist.dashpot), any);
-        let link = Self {
+        let cap =
+            zero.if_less(resist.dashpot, resist.pull / (resist.dashpot + resist.dashpot), any);
+        let link = Link {
             normal,
             levers,
             inverse: [[mi, ti], [mj, tj]],
@@ -238,9 +157,11 @@ impl<L: Lane> Link<L> {
             pull: resist.pull,
         };
         let rolls = zero.less_bits(coupled + resist.rolling);
-        New { link, path, searched: link.is_fast(rate), rolls }
+        Self { link, path, searched: link.is_fast(rate), rolls }
     }
+}
 
+impl<L: Lane> Link<L> {
     /// Speed of separation along the normal, and slip.
     #[inline(always)]
     pub(super) fn motion(&self, two: &Two<L>) -> (L, Vector<L>) {
@@ -346,35 +267,54 @@ pub(super) fn add_momentum(
     }
 }
 
+/// What the search for the impulse of one pair along its line of centres takes.
+pub(super) struct Course {
+    /// The impulse now.
+    pub(super) push: f64,
+    pub(super) along: Normal<f64>,
+    pub(super) to: f64,
+    pub(super) step: f64,
+    pub(super) room: f64,
+    /// 1/m_i + 1/m_j, 1/kg.
+    pub(super) mobility: f64,
+    pub(super) path: Path<f64>,
+}
+
 impl Link<f64> {
-    /// By how much the impulse along the line of centres has to change of a pair that is not linear;
-    /// `charge` gives the drag's impulse up to a gap, and the drag there.
+    #[inline(always)]
+    pub(super) fn course(&self, path: &Path<f64>) -> Course {
+        let Self { push, along, to, step, room, inverse: [[mi, _], [mj, _]], .. } = *self;
+        Course { push, along, to, step, room, mobility: mi + mj, path: *path }
+    }
+}
+
+impl Course {
+    /// By how much the impulse has to change of a pair that is not linear; `charge` gives the drag's
+    /// impulse up to a gap, and the drag there.
     ///
     /// What has been found stays in `along` and `path`, for visits that change little of it.
     #[inline(never)]
     pub(super) fn search(
         &mut self,
-        path: &mut Path<f64>,
         speed: f64,
         duration: f64,
         charge: &dyn Fn(f64) -> [f64; 2],
     ) -> f64 {
-        let Self { to, step, room, push, inverse: [[mi, _], [mj, _]], .. } = *self;
-        let mobility = mi + mj;
-        if path.paid.is_nan() {
-            path.paid = charge(path.charged)[0];
-        } else {
-            let change = self.along.change(speed, push);
-            if (speed + change * mobility - path.found).abs() <= NEAR / LINEAR * room {
-                return change;
-            }
+        let Self { push, to, step, mobility, .. } = *self;
+        let near = NEAR / LINEAR * self.room;
+        let change = self.along.change(speed, push);
+        let guess = speed + change * mobility;
+        if self.path.paid.is_nan() {
+            self.path.paid = charge(self.path.charged)[0];
+        } else if (guess - self.path.found).abs() <= near {
+            return change;
         }
-        let along = Along { to, step, duration, path: *path, mobility };
-        let Fit { speed: found, slope } = along.search(speed, push, STEP / LINEAR * room, charge);
+        let along = Along { to, step, duration, path: self.path, mobility, near };
+        let Fit { speed: found, slope } = along.search(speed - push * mobility, guess, charge);
         let change = (found - speed) / mobility;
         let offset = -(push + change) - slope * found;
         self.along = Normal { offset, slope, answer: 1.0 / (1.0 + slope * mobility) };
-        path.found = found;
+        self.path.found = found;
         change
     }
 }
@@ -382,6 +322,8 @@ impl Link<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::implicit::{Impulse, Remembered, Resist};
+    use crate::pairs::Geometry;
 
     #[test]
     fn a_free_pair_decays_like_the_exponential() {
@@ -399,13 +341,12 @@ mod tests {
             remembered: &Remembered::pack((), |_| Impulse::NONE),
         };
         let inverse = Inverse { classes: &[[1.0 / mass, 0.0]], class: &[0] };
-        let New { link, path, searched, rolls } = Link::new((), &met, inverse, [h, h]);
+        let New { link, path, searched, rolls } = New::of((), &met, inverse, [h, h]);
         assert_eq!([searched, rolls], [0; 2]);
         let p = link.push + link.along.change(0.7, link.push);
         let left = 0.7 + p / mass;
         assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
-        let (mut link, mut path) = (link, path);
-        let found = link.search(&mut path, 0.7, h, &|gap| [drag * gap, drag]);
+        let found = link.course(&path).search(0.7, h, &|gap| [drag * gap, drag]);
         assert!((found / p - 1.0).abs() < 1e-12);
     }
 }

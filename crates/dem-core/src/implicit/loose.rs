@@ -3,9 +3,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::link::{Body, Change, Inverse, Link, Met, New, Path, Remembered, Two, add_momentum};
+use super::link::{Body, Change, Link, New, Path, Two, add_momentum};
 use super::shear::{Coupled, Motion};
-use super::{Impulse, Links, Memory, Resist, Visit};
+use super::{Impulse, Inverse, Links, Memory, Met, Remembered, Resist, Visit};
 use crate::chunk::{List, Sum};
 use crate::lane::{Lane, Vector};
 use crate::pairs::Geometry;
@@ -112,7 +112,7 @@ impl Links {
         inverse: Inverse<'_>,
         times: [f64; 2],
     ) {
-        let New { link, path, searched, rolls } = Link::new((), met, inverse, times);
+        let New { link, path, searched, rolls } = New::of((), met, inverse, times);
         let ([slots], [index]) = (met.slots, met.index);
         let mut more = NOTHING_MORE;
         if slots[0] == slots[1] || rolls != 0 {
@@ -148,7 +148,7 @@ impl Links {
             let [mut own, below] = link.start();
             let [push, mut a, mut b] = link.momentum();
             if let Some(more) = self.more.get(*more as usize) {
-                own = own - push.dot(vector(more.wall));
+                own -= push.dot(vector(more.wall));
                 let couple = link.normal.cross(more.couple) * more.reduced + more.rolling;
                 (a, b) = (a + couple, b - couple);
             }
@@ -194,7 +194,10 @@ impl Links {
         *searched |= link.is_fast(speed) != 0;
         let push = if *searched {
             let charge = |gap: f64| memory.charge(*list, *index, gap);
-            link.search(path, speed, visit.duration, &charge)
+            let mut course = link.course(path);
+            let change = course.search(speed, visit.duration, &charge);
+            (link.along, *path) = (course.along, course.path);
+            change
         } else {
             link.along.change(speed, link.push)
         };

@@ -4,6 +4,7 @@ mod colours;
 mod eight;
 mod link;
 mod loose;
+mod met;
 mod normal;
 mod shear;
 mod term;
@@ -16,8 +17,9 @@ use crate::lane::Lane;
 pub(crate) use colours::Colours;
 pub(crate) use eight::{EIGHT, Visit};
 use eight::{Eight, Paths};
-pub(crate) use link::{Change, Inverse, Met, Remembered};
+pub(crate) use link::Change;
 use loose::{Loose, More};
+pub(crate) use met::{Inverse, Met, Remembered};
 pub use term::Implicit;
 
 /// What resists the relative motion of a pair, or of several side by side, for [`Implicit`].

@@ -6,12 +6,10 @@ use crate::lane::Lane;
 /// A pair is taken to be linear over a step in which its gap changes by less than this share of
 /// its clearance: the error is below 1e-6 of the drag's impulse.
 pub(super) const LINEAR: f64 = 1.5e-3;
-/// Where a pair has been searched for it is taken to be linear around what was found, as long as its
-/// gap changes by less than this share of its clearance from that: the error is that of [`LINEAR`].
+/// A pair that is searched for is linear around a speed as long as the gap changes by less than this
+/// share of its clearance from there: what is left is the square of it, again some 1e-6 of the
+/// drag's impulse, since such a gap changes by more than [`LINEAR`].
 pub(super) const NEAR: f64 = 5e-5;
-/// The search for a speed ends with a step that changes the gap by less than this share of its
-/// clearance: what is left is the square of it.
-pub(super) const STEP: f64 = 1e-5;
 /// Of the search between bounds, relative to the speeds before.
 const TOLERANCE: f64 = 1e-13;
 const MOST_ITERATIONS: u32 = 60;
@@ -105,6 +103,8 @@ pub(super) struct Along {
     pub(super) path: Path<f64>,
     /// 1/m_i + 1/m_j, 1/kg.
     pub(super) mobility: f64,
+    /// Speeds nearer to each other than that are one for a tangent, m/s.
+    pub(super) near: f64,
 }
 
 /// A speed that fits, and the tangent there: by how much the impulse falls with it, N s per m/s.
@@ -115,25 +115,18 @@ pub(super) struct Fit {
 }
 
 impl Along {
-    /// The speed of separation that fits where `speed` is that of now and `now` the impulse in it;
-    /// `charge` gives the drag's impulse from contact to a gap, and the drag there.
+    /// The speed of separation that fits, near to `guess`, where it would be `own` without the pair's
+    /// impulse; `charge` gives the drag's impulse from contact to a gap, and the drag there.
     ///
-    /// Newton's method from that speed, whose error is squared in every step, until a step is at
-    /// most `small`. Where that does not do, between bounds: what is searched for grows with the
-    /// speed, by 1/mobility at least.
-    pub(super) fn search(
-        &self,
-        speed: f64,
-        now: f64,
-        small: f64,
-        charge: &dyn Fn(f64) -> [f64; 2],
-    ) -> Fit {
-        let own = speed - now * self.mobility;
-        let mut a = speed;
+    /// Newton's method from the guess, whose error is squared in every step, until a step is a near
+    /// one. Where that does not do, between bounds: what is searched for grows with the speed, by
+    /// 1/mobility at least.
+    pub(super) fn search(&self, own: f64, guess: f64, charge: &dyn Fn(f64) -> [f64; 2]) -> Fit {
+        let mut a = guess;
         for _ in 0..TRIES {
             let [f, slope] = self.lack(own, a, charge);
             let next = a - f / (slope + 1.0 / self.mobility);
-            if (next - a).abs() <= small && self.is_capped(a) == self.is_capped(next) {
+            if (next - a).abs() <= self.near && self.is_capped(a) == self.is_capped(next) {
                 return Fit { speed: next, slope };
             }
             a = next;
@@ -142,7 +135,7 @@ impl Along {
         let (mut low, mut high) = (own.min(other), own.max(other));
         let small = TOLERANCE * (own.abs() + self.path.before.abs());
         // Not `clamp`, which panics where a number is not finite.
-        let mut fit = Fit { speed: speed.max(low).min(high), slope: 0.0 };
+        let mut fit = Fit { speed: guess.max(low).min(high), slope: 0.0 };
         for _ in 0..MOST_ITERATIONS {
             let a = fit.speed;
             let [f, slope] = self.lack(own, a, charge);

@@ -116,9 +116,8 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             self.across(Visit { duration, share, forward: true });
             let back = Visit { duration, share: 1.0, forward: false };
             let across = self.across(back);
-            let inside = self.inside(|solving, chunk, velocities| {
-                solving.pass(chunk, velocities, back)
-            });
+            let inside =
+                self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
             let change = inside + across;
             let settled = change.changed <= SETTLED * change.all;
             if settled {
@@ -243,7 +242,12 @@ impl<T: PairTerm> Solving<'_, T> {
 /// Adds what a particle has to do with the two sums that scale a start: what the impulses do to it
 /// times its velocity, and times the velocity that they give. `[m, i]` are 1/m and 1/I.
 #[inline(always)]
-fn add_motion([own, below]: [f64; 2], velocity: &Velocity, push: &Sum, [m, i]: [f64; 2]) -> [f64; 2] {
+fn add_motion(
+    [own, below]: [f64; 2],
+    velocity: &Velocity,
+    push: &Sum,
+    [m, i]: [f64; 2],
+) -> [f64; 2] {
     let (p, l) = (push.force.vector(), push.torque.vector());
     let (v, w) = (velocity.v.vector(), velocity.w.vector());
     let moved = p.length_squared() * m + l.length_squared() * i;

@@ -259,11 +259,13 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     /// drag fades, where it does, by that at contact.
     pub(super) fn charge(&self, hold: &Hold, gap: f64) -> [f64; 2] {
         let seat = hold.seat as usize;
-        if let (true, Some(&Row([_, drag, _, fade]))) = (gap < 0.0, self.contact.get(seat)) {
-            if fade > 0.0 && fade < f64::INFINITY {
-                let less = (gap * fade).exp_m1();
-                return [drag / fade * less, drag * (1.0 + less)];
-            }
+        if gap < 0.0
+            && let Some(&Row([_, drag, _, fade])) = self.contact.get(seat)
+            && fade > 0.0
+            && fade < f64::INFINITY
+        {
+            let less = (gap * fade).exp_m1();
+            return [drag / fade * less, drag * (1.0 + less)];
         }
         self.far.get(seat).map_or([0.0; 2], |far| far.curves.1.charge(gap))
     }
