@@ -11,7 +11,7 @@ use pendular::{Budget, Counts, Ledger, LedgerParts, LiveState, MeshWalls, WetSta
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::build::WetTerm;
+use crate::build::{Files, WetTerm};
 use crate::makeup::{Makeup, StoredPair};
 use crate::screening::Screening;
 use crate::spent::Spent;
@@ -65,8 +65,8 @@ pub(crate) struct Checkpoint {
     pub(crate) limit: f64,
     /// What was decided for laws that the scene leaves open.
     pub(crate) decided: Vec<(String, String)>,
-    /// Checksum of the file of each of the scene's `parts`.
-    pub(crate) parts: Vec<u32>,
+    /// Checksums of the files that the scene names.
+    pub(crate) files: Files,
     /// Bytes of each table.
     pub(crate) tables: Vec<u64>,
     pub(crate) rows: u64,

@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use crate::build::{self, Built, Source};
+use crate::build::{self, Built, Files, Source};
 use crate::checkpoint::Checkpoint;
 use crate::cli::{How, MOST_THREADS, RunArgs};
 use crate::document::{self, Set};
@@ -250,6 +250,14 @@ fn taken(folder: &Path) -> Result<(Checkpoint, Lock), RunError> {
     Ok((Checkpoint::read(folder)?, lock))
 }
 
+/// Refuses to go on with other parts than a run began with.
+fn same_parts(scene: &Scene, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+    let now = Files::of_parts(scene, &checkpoint.base)?;
+    checkpoint.files.other_part(scene, &now).map_or(Ok(()), |(key, file)| {
+        Err(scene.at(&key, SceneError::OtherFile { file: file.clone() }))
+    })
+}
+
 /// Goes on with a run until its end, or until `stop` is set.
 pub(crate) fn resume_until(
     folder: &Path,
@@ -264,16 +272,12 @@ pub(crate) fn resume_until(
     scene.time_step = Some(checkpoint.time_step);
     scene.seed = checkpoint.seed;
     auto::apply(&mut scene, &checkpoint.decided);
-    let class = checkpoint.class.clone();
-    let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class)?;
+    let (class, files) = (checkpoint.class.clone(), checkpoint.files.clone());
+    let mut built = build::again(&scene, &checkpoint.base, threads(how)?, class, files)?;
     built.settings.allow_unstable = checkpoint.allow_unstable;
     let finished = checkpoint.is_finished();
-    let same = |k: &usize| built.derived.parts.get(*k) == checkpoint.parts.get(*k);
-    if let Some(k) = (0..scene.parts.len()).find(|k| !finished && !same(k)) {
-        let stl = scene.parts[k].stl.display();
-        let message =
-            format!("{stl} is not what it was when the run began; allowed: the same file");
-        return Err(scene.at(&format!("parts[{k}].stl"), SceneError::PartFile { message }).into());
+    if !finished {
+        same_parts(&scene, &checkpoint)?;
     }
     match style {
         Style::People | Style::Quiet if finished => say::line(format_args!(

@@ -40,8 +40,8 @@ pub(crate) enum SceneError {
          goes on from there"
     )]
     Settling { time: f64 },
-    #[error("{message}")]
-    PartFile { message: String },
+    #[error("{} is not what it was when the run began; allowed: the same file", file.display())]
+    OtherFile { file: PathBuf },
     #[error(transparent)]
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error("the particles do not fit: {message}")]
@@ -82,8 +82,8 @@ pub(crate) enum RunError {
     )]
     HoldsRun { folder: PathBuf },
     #[error(
-        "{} is being written by another run; allowed: another folder, or this one once that run has \
-         ended",
+        "{} is being written by another run or sweep; allowed: another folder, or this one once that \
+         has ended",
         folder.display()
     )]
     Busy { folder: PathBuf },
@@ -118,6 +118,12 @@ pub(crate) enum RunError {
         folder.display()
     )]
     OtherRun { folder: PathBuf },
+    #[error(
+        "{} holds a run of another {}, which has changed since (key `{key}`): remove the folder, to run \
+         it again, or choose another --out",
+        folder.display(), file.display()
+    )]
+    OtherFile { folder: PathBuf, key: String, file: PathBuf },
     #[error(
         "the run stopped at t = {:.6} s: {}\n  what to do: {}\n  the tables in {} hold what was \
          until then; the last checkpoint, of t = {saved:.6} s, is kept",

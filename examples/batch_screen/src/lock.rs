@@ -1,4 +1,4 @@
-//! One run at a time writes a folder: a lock on a small file in it, which the system releases
+//! One run or sweep at a time writes a folder: a lock on a small file in it, which the system releases
 //! however the program ends.
 
 use std::fs::{self, File, TryLockError};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::error::RunError;
 use crate::say;
 
-/// Stays in the folder: were it removed, two runs could each lock a file of that name.
+/// Stays in the folder: were it removed, two of them could each lock a file of that name.
 const NAME: &str = "run.lock";
 
-/// Held while a run writes into its folder.
+/// Held while a run or a sweep writes into its folder.
 #[derive(Debug)]
 pub(crate) struct Lock {
     folder: PathBuf,

@@ -258,7 +258,7 @@ impl<T: Makeup> Run<'_, T> {
             budget: self.budget,
             limit: self.limit,
             decided: self.job.decided.clone(),
-            parts: self.derived.parts.clone(),
+            files: self.derived.files.clone(),
             tables: self.tables.lengths()?,
             rows: self.rows,
             frames: self.frames,

@@ -154,20 +154,6 @@ pub(crate) fn floor(scene: &Scene) -> Option<f64> {
     }
 }
 
-/// Checksums of the files of the parts, in their order.
-pub(crate) fn checksums(scene: &Scene, base: &Path) -> Result<Vec<u32>, SceneError> {
-    let of = |(k, part): (usize, &PartFile)| {
-        let path = base.join(&part.stl);
-        let bytes = std::fs::read(&path);
-        let wrong = |e: std::io::Error| {
-            let message = format!("cannot read {}: {e}", path.display());
-            scene.at(&format!("parts[{k}].stl"), SceneError::PartFile { message })
-        };
-        bytes.map(|bytes| crc32fast::hash(&bytes)).map_err(wrong)
-    };
-    scene.parts.iter().enumerate().map(of).collect()
-}
-
 fn from_file(scene: &Scene, file: &PartFile, base: &Path) -> Result<Part, WallError> {
     let mesh = Mesh::from_stl(base.join(&file.stl), file.scale)?;
     let motion = if file.moves { motion(scene) } else { Motion::STILL };

@@ -2,6 +2,7 @@
 
 pub(crate) mod apparatus;
 mod bed;
+mod files;
 mod laws;
 mod settle;
 
@@ -16,6 +17,7 @@ use pendular::transfer::film;
 use pendular::{MeshWalls, Wet};
 
 pub(crate) use self::bed::Source;
+pub(crate) use self::files::Files;
 use crate::error::SceneError;
 use crate::scene::{Drag, Scene};
 
@@ -49,8 +51,8 @@ pub(crate) struct Derived {
     pub(crate) class: Vec<u16>,
     /// Whether drags are solved for at the end of the step.
     pub(crate) implicit: bool,
-    /// Checksum of the file of each of the scene's `parts`.
-    pub(crate) parts: Vec<u32>,
+    /// Checksums of the files that the scene names.
+    pub(crate) files: Files,
 }
 
 /// Builds a scene, its bed settled if it is to be.
@@ -66,17 +68,23 @@ pub(crate) fn build(scene: &Scene, source: &Source<'_>) -> Result<Built, SceneEr
         particles.push(one.class, one.position, DVec3::ZERO, DVec3::ZERO)?;
     }
     let class = placed.iter().map(|one| one.class).collect();
-    around(scene, source.base, source.threads, particles, class)
+    let mut built = around(scene, source.base, source.threads, particles, class)?;
+    built.derived.files = Files::of(scene, source.base)?;
+    Ok(built)
 }
 
-/// Builds what is around the particles of a stored run, whose classes by id are `class`.
+/// Builds what is around the particles of a stored run, whose classes by id are `class` and which
+/// began with the `files`.
 pub(crate) fn again(
     scene: &Scene,
     base: &Path,
     threads: usize,
     class: Vec<u16>,
+    files: Files,
 ) -> Result<Built, SceneError> {
-    around(scene, base, threads, Particles::new(classes(scene)?)?, class)
+    let mut built = around(scene, base, threads, Particles::new(classes(scene)?)?, class)?;
+    built.derived.files = files;
+    Ok(built)
 }
 
 fn around(
@@ -99,7 +107,6 @@ fn around(
     };
     let loads = loads(&classes, &contact, wet.as_ref());
     derived.implicit = is_implicit(scene, &classes, &loads);
-    derived.parts = apparatus::checksums(scene, base)?;
     let limit = Limit::packing(&classes, &resisted(loads, derived.implicit)).time_step;
     let settings = settings(scene, limit, threads);
     Ok(Built { particles, walls: MeshWalls(walls), contact, wet, settings, derived })
@@ -151,7 +158,7 @@ fn derive(scene: &Scene, classes: &[Class], class: Vec<u16>) -> Derived {
         film: film_thickness(classes, &counts, liquid),
         class,
         implicit: false,
-        parts: Vec::new(),
+        files: Files::default(),
         counts,
         masses,
         solid_mass,

@@ -11,13 +11,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use self::plan::{Plan, Planned};
 use self::table::{Sheet, Status};
+use crate::build::Files;
 use crate::checkpoint::Checkpoint;
 use crate::cli::{Emit, How, RunArgs, SweepArgs};
 use crate::commands;
 use crate::error::{RunError, SceneError};
+use crate::lock::Lock;
 use crate::place::Place;
 use crate::progress::Style;
 use crate::say;
+use crate::scene::Scene;
 
 /// A commented sweep file to start from.
 pub(crate) const SAMPLE: &str = include_str!("sample.toml");
@@ -91,8 +94,10 @@ impl Sweep<'_> {
         }
     }
 
-    /// Runs all that is not done yet.
+    /// Runs all that is not done yet. Nobody else does so in this folder meanwhile; those who run
+    /// one only leave the table alone, and each run's folder has a lock of its own.
     fn all(&self, jobs: usize) -> Result<(), RunError> {
+        let _lock = Lock::take(self.out)?;
         let mut sheet = Sheet::new(self.out, self.plan)?;
         let mut left = Vec::new();
         for (row, run) in self.plan.runs.iter().enumerate() {
@@ -106,7 +111,10 @@ impl Sweep<'_> {
                     }
                 }
                 Ok(_) => left.push(row),
-                Err(error) => sheet.note(row, &folder, Status::Failed, Some(1), &error.to_string()),
+                Err(error) => {
+                    let code = Some(error.code());
+                    sheet.note(row, &folder, Status::Failed, code, &error.to_string());
+                }
             }
         }
         sheet.write()?;
@@ -209,10 +217,27 @@ impl Sweep<'_> {
         if !same {
             return Err(RunError::OtherRun { folder });
         }
+        self.same_files(run, &checkpoint, &folder)?;
         let at_end = checkpoint.core.time(checkpoint.time_step);
         let done = at_end > run.time - 0.75 * checkpoint.time_step;
         let page = folder.join("report.html").exists();
         Ok(if done && page { Found::Whole } else { Found::Part })
+    }
+
+    /// Refuses what was run with files that the scene names and that have changed since.
+    fn same_files(
+        &self,
+        run: &Planned,
+        checkpoint: &Checkpoint,
+        folder: &Path,
+    ) -> Result<(), RunError> {
+        let path = Path::new(&self.plan.scene);
+        let scene = Scene::parse(&run.text, path)?;
+        let now = Files::of(&scene, path.parent().unwrap_or(Path::new("")))?;
+        checkpoint.files.other(&scene, &now).map_or(Ok(()), |(key, file)| {
+            let (folder, file) = (folder.to_path_buf(), file.clone());
+            Err(RunError::OtherFile { folder, key, file })
+        })
     }
 
     fn go(&self, run: &Planned, found: &Found, style: Style) -> Result<(), RunError> {
