@@ -12,9 +12,11 @@ use crate::scene::{LiquidSpec, Scene};
 mod extremes;
 mod feed;
 mod ranges;
+mod volumes;
 
 pub(crate) use extremes::{STEEP, steps};
 pub(crate) use ranges::laws;
+pub(crate) use volumes::volumes;
 
 /// Most wires of one direction that a sieve can have.
 const MOST_WIRES: f64 = 1e4;

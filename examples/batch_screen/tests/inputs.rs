@@ -133,3 +133,52 @@ fn a_bridge_that_a_law_refuses_is_told_with_its_bodies_and_the_law() {
     let message = said.lines().find(|line| line.contains("the run stopped at")).unwrap();
     assert_eq!(message.matches("t = ").count(), 1, "{message}");
 }
+
+/// A scene of one class, which has 5 % of liquid in equal films.
+fn one_class() -> String {
+    let scene = small();
+    let [second, packing] =
+        [scene.match_indices("[[classes]]").nth(1).unwrap().0, scene.find("[packing]").unwrap()];
+    format!("{}{}", &scene[..second], &scene[packing..])
+}
+
+#[test]
+fn laws_whose_range_the_first_bridges_miss_are_named_before_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), one_class()).unwrap();
+    let check = |sets: &[&str]| {
+        let set = sets.iter().flat_map(|set| ["--set", set]);
+        let args: Vec<&str> = ["check", "s.toml"].into_iter().chain(set).collect();
+        let done = run(folder.path(), &args);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        text(&done.stdout).lines().filter(|line| line.contains("V*")).collect::<String>()
+    };
+    // By hand: liquid on a sphere 0.05 (4/3) pi r^3 1358/1000, of which (1 - sqrt(3)/2)/2 from each
+    // of two spheres goes into a bridge of R = r: V* = 3.81e-2. A wall gives none, R = 2 r: 2.38e-3
+    // at the frame; at a wire, (1/6)(1/2.5) of a sphere's liquid: 2.37e-3.
+    let none = check(&[]);
+    assert!(none.is_empty(), "{none}");
+    let few = check(&["liquid.capillary=rabinovich"]);
+    for words in ["liquid.capillary = \"rabinovich\"", " 0 to 0.01;", "3.81e-2 (5 mm with 5 mm)"] {
+        assert!(few.contains(words), "`{words}` is not in: {few}");
+    }
+    assert!(few.contains("are extrapolated and counted") && !few.contains("wall"), "{few}");
+    let wall = check(&["liquid.capillary_wall=rabinovich", "liquid.moisture_percent=25"]);
+    for words in ["liquid.capillary_wall = \"rabinovich\"", "dry", "1.19e-2 (5 mm with"] {
+        assert!(wall.contains(words), "`{words}` is not in: {wall}");
+    }
+    // The rupture laws have ranges too; Mikami's is another one at walls.
+    let many =
+        ["liquid.moisture_percent=70", "liquid.rupture=mikami", "liquid.rupture_wall=mikami"];
+    let said = check(&many);
+    assert!(said.contains("liquid.rupture = \"mikami\" holds for V* = V/R^3 of 0.0001 to 0.1"));
+    assert!(said.contains("liquid.rupture_wall = \"mikami\" holds for V* = V/R^3 of 1e-6 to 0.03"));
+    // What is announced happens: the first bridge stops a run that refuses.
+    let sets = ["liquid.capillary=lambert", "liquid.moisture_percent=20", REFUSE];
+    assert!(check(&sets).contains("the run stops at the first outside (liquid.outside_range)"));
+    let set = sets.iter().flat_map(|set| ["--set", set]);
+    let args: Vec<&str> = ["run", "s.toml", "--time", "0.01"].into_iter().chain(set).collect();
+    let done = run(folder.path(), &args);
+    assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
+    assert!(text(&done.stderr).contains("V/R^3"), "{}", text(&done.stderr));
+}

@@ -3,6 +3,7 @@
 
 use pendular::capillary::{AnyCapillary, CapillaryLaw};
 use pendular::pair::{Bridge, Mate, Validity};
+use pendular::transfer::rupture::Mikami1998;
 use pendular::transfer::{AnyRupture, RuptureLaw};
 
 use crate::error::SceneError;
@@ -55,9 +56,10 @@ pub(crate) fn laws(scene: &Scene) -> Result<(), SceneError> {
     Ok(())
 }
 
-type Named<'a> = [(&'static str, &'a str, Option<Validity>); 2];
+/// Key, name and range of a capillary and of a rupture law; no range while the law is left open.
+pub(super) type Named<'a> = [(&'static str, &'a str, Option<Validity>); 2];
 
-fn between(liquid: &LiquidSpec) -> Named<'_> {
+pub(super) fn between(liquid: &LiquidSpec) -> Named<'_> {
     let (capillary, rupture) = (&liquid.capillary, &liquid.rupture);
     [
         ("liquid.capillary", capillary, of_capillary(capillary)),
@@ -65,11 +67,11 @@ fn between(liquid: &LiquidSpec) -> Named<'_> {
     ]
 }
 
-fn with_walls(liquid: &LiquidSpec) -> Named<'_> {
+pub(super) fn with_walls(liquid: &LiquidSpec) -> Named<'_> {
     let (capillary, rupture) = (&liquid.capillary_wall, &liquid.rupture_wall);
     [
         ("liquid.capillary_wall", capillary, of_capillary(capillary)),
-        ("liquid.rupture_wall", rupture, of_rupture(rupture)),
+        ("liquid.rupture_wall", rupture, of_rupture_wall(rupture)),
     ]
 }
 
@@ -79,6 +81,14 @@ fn of_capillary(name: &str) -> Option<Validity> {
 
 fn of_rupture(name: &str) -> Option<Validity> {
     name.parse().ok().map(|law: AnyRupture| law.validity())
+}
+
+/// Mikami's law has another formula for walls, with a range of its own.
+fn of_rupture_wall(name: &str) -> Option<Validity> {
+    match name.parse().ok()? {
+        AnyRupture::Mikami => Some(Mikami1998::WALL),
+        law => Some(law.validity()),
+    }
 }
 
 /// What of a pair lies outside a range, and that range.
