@@ -18,7 +18,7 @@ use crate::place::{Origin, Place};
 use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::say;
-use crate::scene::Scene;
+use crate::scene::{Packing, Scene};
 use crate::{auto, builtin, folder, limits, needs, page, progress, report};
 
 /// Lists the built-in scenes.
@@ -121,7 +121,12 @@ pub(crate) fn check(
         "  limit        {:.3e} s, set by the {} of class {class}; the time step is {share:.0} % of it",
         limit.time_step, limit.term
     ));
-    Ok(within_limit(&scene, &built)?)
+    within_limit(&scene, &built)?;
+    // Where a bed has to settle first, a run finds out what it overlaps then.
+    if !matches!(scene.packing, Packing::Bin { .. }) {
+        run::begins(&scene, built)?;
+    }
+    Ok(())
 }
 
 /// Refuses a time step above the stability limit.

@@ -42,6 +42,12 @@ pub(crate) enum SceneError {
     Settling { time: f64 },
     #[error("{} is not what it was when the run began; allowed: the same file", file.display())]
     OtherFile { file: PathBuf },
+    #[error(
+        "part `{part}` reaches into the bed, which fills the frame from {:.2} mm to at least {:.2} mm \
+         above the wire axes at the start; allowed: a part outside that space",
+        1e3 * floor, 1e3 * top
+    )]
+    PartInBed { part: String, floor: f64, top: f64 },
     #[error(transparent)]
     Checkpoint(#[from] crate::checkpoint::CheckpointError),
     #[error("the particles do not fit: {message}")]

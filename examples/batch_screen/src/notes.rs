@@ -2,10 +2,11 @@
 //! their units and places can be seen.
 
 use glam::DVec3;
-use pendular::dem::Class;
-use pendular::walls::{Shape, Walls};
+use pendular::dem::{Class, Particle};
+use pendular::walls::{Part, Shape, Walls};
 
-use crate::build::Built;
+use crate::build::region::region;
+use crate::build::{Built, apparatus};
 use crate::check::{STEEP, number};
 use crate::limits::drop_speed;
 use crate::scene::Scene;
@@ -77,8 +78,32 @@ fn of(scene: &Scene, built: &Built) -> Vec<String> {
         notes.push("liquid.moisture_percent is 0: a dry run; without [liquid] it is faster".into());
     }
     notes.extend(crate::check::volumes(scene, built));
+    notes.extend(reached(scene, built));
     notes.extend(fall(scene, built.particles.classes()));
     notes
+}
+
+/// Parts where spheres are before they settle, though not surely after that.
+fn reached(scene: &Scene, built: &Built) -> Vec<String> {
+    if apparatus::floor(scene).is_none() {
+        return Vec::new();
+    }
+    let classes = built.particles.classes();
+    let top = |one: Particle| one.position.z + classes[usize::from(one.class)].radius();
+    let top = built.particles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
+    let region = region(scene, classes, &built.derived.counts, top);
+    let named = |name: &str| scene.parts.iter().any(|file| file.name == name);
+    let parts = built.walls.0.parts().iter();
+    let held = parts.filter(|part| named(&part.name) && region.holds(part));
+    let note = |part: &Part| {
+        format!(
+            "part `{}` reaches into the space of the spheres, below z = {:.2} mm: a bed that has \
+             settled into it is refused at the start of a run",
+            part.name,
+            1e3 * top
+        )
+    };
+    held.map(note).collect()
 }
 
 /// A fall onto the screen that alone makes the guard stop the run.

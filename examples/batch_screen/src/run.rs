@@ -12,6 +12,7 @@ use pendular::dem::{Departure, Implicit, Particle, Passes, Simulation};
 use pendular::{Account, Budget, MeshWalls};
 
 use self::start::begin;
+pub(crate) use self::start::begins;
 use crate::auto::Decision;
 use crate::budget;
 use crate::build::apparatus::collection;

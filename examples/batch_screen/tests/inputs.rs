@@ -69,16 +69,61 @@ fn a_part_from_a_file_is_told_and_named_where_it_overlaps_the_bed() {
                 20.00, y -20.00 to 20.00, z 10.00 to 10.00 mm";
     let check = run(folder.path(), &["check", "s.toml"]);
     assert!(text(&check.stdout).contains(told), "{}", text(&check.stdout));
-    let done = run(folder.path(), &["run", "s.toml", "--set", LOOSE, "--time", "0.001"]);
-    assert!(text(&done.stdout).contains(told), "{}", text(&done.stdout));
-    let (said, place) = (text(&done.stderr), format!("s.toml, line {line}: key `parts[0]`"));
-    assert!(said.contains(&place), "{said}");
-    assert!(said.contains("overlaps part `lid` by ") && said.contains("allowed: up to"), "{said}");
-    assert_eq!(done.status.code(), Some(2));
+    let place = format!("s.toml, line {line}: key `parts[0]`");
+    for command in ["run", "check"] {
+        let done = run(folder.path(), &[command, "s.toml", "--set", LOOSE, "--time", "0.001"]);
+        assert!(text(&done.stdout).contains(told), "{}", text(&done.stdout));
+        let said = text(&done.stderr);
+        assert!(said.contains(&place), "{said}");
+        assert!(said.contains("overlaps part `lid` by ") && said.contains("allowed: up to"));
+        assert_eq!(done.status.code(), Some(2));
+    }
     // Two of one name would be one.
     fs::write(folder.path().join("s.toml"), format!("{scene}{part}")).unwrap();
     let said = text(&run(folder.path(), &["check", "s.toml"]).stderr);
     assert!(said.contains("key `parts[1].name`: lid is not allowed"), "{said}");
+}
+
+#[test]
+fn a_part_in_the_bed_is_found_before_the_bed_settles() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = "\n[[parts]]\nname = \"fin\"\nstl = \"fin.stl\"\nmaterial = \"steel\"\n";
+    // 24 spheres of 3.2 cm3 on 12.6 cm2: about two layers above the floor at 12 mm.
+    fs::write(folder.path().join("s.toml"), format!("{}{part}", small())).unwrap();
+    let fin = |low: f64, x: f64| {
+        let high = low + 10.0;
+        let stl = format!(
+            "solid f\nfacet normal 1 0 0\nouter loop\nvertex {x} -5 {low}\nvertex {x} 5 {low}\n\
+             vertex {x} 0 {high}\nendloop\nendfacet\nendsolid f\n"
+        );
+        fs::write(folder.path().join("fin.stl"), stl).unwrap();
+    };
+    fin(13.0, 2.0);
+    for command in [&["check", "s.toml"][..], &["run", "s.toml"], &["needs", "s.toml"]] {
+        let done = run(folder.path(), command);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{said}");
+        for words in ["key `parts[0]`: part `fin` reaches into the bed", "from 12.00 mm", "allowed"]
+        {
+            assert!(said.contains(words), "`{words}` is not in: {said}");
+        }
+        assert!(!said.contains("settling") && !folder.path().join("out").exists(), "{said}");
+    }
+    // Beside the frame it is none of the bed's business, and above the settled bed neither, though
+    // the spheres are placed there before.
+    for (low, x, told) in [(13.0, 25.0, false), (24.0, 2.0, true)] {
+        fin(low, x);
+        let done = run(folder.path(), &["check", "s.toml"]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        let said = text(&done.stdout);
+        assert_eq!(
+            said.contains("part `fin` reaches into the space of the spheres"),
+            told,
+            "{said}"
+        );
+        let done = run(folder.path(), &["run", "s.toml", "--time", "0.001"]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+    }
 }
 
 #[test]

@@ -34,20 +34,22 @@ pub(crate) fn walls(scene: &Scene, base: &Path) -> Result<Walls, SceneError> {
 /// The walls in which the bed settles: all of them standing where they are at t = 0, and the floor
 /// of the feed bin.
 pub(crate) fn bin(scene: &Scene, floor: f64) -> Result<Walls, SceneError> {
-    let standing = Motion {
-        terms: motion(scene)
-            .terms
-            .into_iter()
-            .map(|term| Harmonic { frequency: 0.0, ..term })
-            .collect(),
-        ramp: 0.0,
-    };
-    let mut parts = screen(scene, &standing)?;
+    let mut parts = screen(scene, &standing(scene))?;
     parts.retain(|part| part.name == "frame");
     let plane = Plane::new(DVec3::Z * floor, DVec3::Z, 1.0)?;
     let material = scene.material(&scene.screen.material).unwrap_or_default();
     parts.push(Part::new("floor", Shape::Plane(plane)).with_material(material));
     Ok(Walls::new(parts)?)
+}
+
+/// Where the screen is at t = 0, for ever. A ramp begins at rest.
+pub(crate) fn standing(scene: &Scene) -> Motion {
+    let Motion { terms, ramp } = motion(scene);
+    if ramp > 0.0 {
+        return Motion::STILL;
+    }
+    let still = |term| Harmonic { frequency: 0.0, ..term };
+    Motion { terms: terms.into_iter().map(still).collect(), ramp }
 }
 
 /// What a part is called in the results: all wires are one group.
@@ -186,6 +188,24 @@ mod tests {
             assert!((x.z - 1e-3 * (first.sin() + 0.1 * (2.0 * first).cos())).abs() < 1e-15);
         }
         assert_eq!(scene.motion.reach_mm(), [0.08, 0.05, 1.1]);
+    }
+
+    #[test]
+    fn a_bed_settles_in_a_frame_that_stands_where_the_run_begins() {
+        for ramp in [0.0, 0.2] {
+            let demo = crate::builtin::find("demo").unwrap();
+            let text = demo.replace("[motion]", &format!("[motion]\nramp = {ramp}"));
+            let scene = Scene::parse(&text, Path::new("s.toml")).unwrap();
+            let mut bin = bin(&scene, 15e-3).unwrap();
+            let mut walls = walls(&scene, Path::new(".")).unwrap();
+            bin.move_to(0.7, 0.7);
+            walls.move_to(0.0, 0.0);
+            let frame = walls.parts().iter().position(|part| part.name == "frame").unwrap() as u32;
+            let (settled, begins) = (bin.displacement(0), walls.displacement(frame));
+            assert_eq!(bin.parts()[0].name, "frame");
+            assert_eq!(settled, begins, "ramp {ramp}");
+            assert_eq!(begins == DVec3::ZERO, ramp > 0.0, "{begins}");
+        }
     }
 
     /// The demo with these lines in place of its housing's heading, which they come before.

@@ -9,8 +9,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use pendular::dem::Class;
 
-use super::apparatus;
 use super::settle::{Settling, settle};
+use super::{apparatus, region};
 use crate::error::SceneError;
 use crate::packing::{self, Placed, Space};
 use crate::progress::Style;
@@ -67,6 +67,7 @@ pub(crate) fn place(
                 .map_err(|source| scene.at("packing.solid_fraction", source))
         }
         Packing::Bin { floor_height_mm, solid_fraction, settle_at_most } => {
+            region::clear(scene, source.base, classes, &counts)?;
             let kept = source.beds.map(|beds| kept(scene, classes, &counts, time_step, beds));
             let lock = kept.as_deref().map(lock_of).unwrap_or_default();
             let _alone = lock.lock().unwrap_or_else(PoisonError::into_inner);
@@ -205,8 +206,10 @@ fn space(scene: &Scene, bottom: f64, solid_fraction: f64) -> Space {
 
 /// The file of a settled bed: its name is a hash of all that made it.
 fn kept(scene: &Scene, classes: &[Class], counts: &[u64], time_step: f64, beds: &Path) -> PathBuf {
+    // Beds of scenes with a ramp once settled in a frame that stood elsewhere.
+    let still = if scene.motion.ramp > 0.0 { " still" } else { "" };
     let made_of = format!(
-        "{:?} {classes:?} {counts:?} {time_step:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{:?} {classes:?} {counts:?} {time_step:?} {} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?}{still}",
         env!("CARGO_PKG_VERSION"),
         super::settle::AT_REST,
         scene.seed,

@@ -4,6 +4,7 @@ pub(crate) mod apparatus;
 mod bed;
 mod files;
 mod laws;
+pub(crate) mod region;
 mod settle;
 
 use std::path::Path;

@@ -6,7 +6,7 @@ use pendular::dem::{Partner, Simulation, SimulationError};
 use pendular::{Budget, MeshWalls};
 
 use super::{Job, Run, part_names};
-use crate::build::Derived;
+use crate::build::{Built, Derived};
 use crate::checkpoint::Checkpoint;
 use crate::error::{RunError, SceneError};
 use crate::guard::Guard;
@@ -51,6 +51,16 @@ pub(super) fn begin<'a, T: Makeup>(
     }
     let simulation = Simulation::restore(particles, term, walls, settings, snapshot);
     Run::resume(scene, simulation.map_err(SceneError::from)?, derived, job, from)
+}
+
+/// Whether a run could begin: nothing overlaps too much.
+pub(crate) fn begins(scene: &Scene, built: Built) -> Result<(), SceneError> {
+    let Built { particles, walls, contact, mut settings, derived, .. } = built;
+    let guard = Guard::new(scene, &walls, &derived.class);
+    // The step is judged elsewhere.
+    settings.allow_unstable = true;
+    let begun = Simulation::new(particles, contact, walls, settings);
+    begun.map(drop).map_err(|e| not_begun(scene, &guard, e))
 }
 
 /// Why a run cannot begin; overlaps with a part from a file are that part's.
