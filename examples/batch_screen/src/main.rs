@@ -12,6 +12,7 @@ mod commands;
 mod document;
 mod effective;
 mod error;
+mod evidence;
 mod folder;
 mod forms;
 mod frames;

@@ -12,9 +12,10 @@ use crate::build::{self, Built, Source};
 use crate::error::RunError;
 use crate::limits::{self, Kind};
 use crate::pilot::{self, Pilot};
+use crate::progress::Style;
 use crate::run::Outcome;
 use crate::scene::{DynamicRupture, LiquidSpec, Scene, SizeClass, WireKind};
-use crate::{auto, budget, report};
+use crate::{auto, budget, evidence, report};
 
 /// Time steps of the twins, as shares of the scene's: they differ by chance alone.
 const TWINS: [f64; 2] = [0.99, 0.98];
@@ -59,13 +60,23 @@ pub(crate) fn needs(
     tolerance: f64,
     say: &dyn Fn(&str),
 ) -> Result<(), RunError> {
+    let whole_time = scene.time;
     scene.time = scene.time.min(time);
     scene.output_interval = scene.output_interval.max(scene.time / 10.0);
     let built = build::build(&scene, source)?;
     scene.time_step = Some(built.settings.time_step);
     say(&report::header(&scene, &built));
     say(&format!("pilot runs of {} s; tolerance {tolerance}", scene.time));
+    // Beds of other steps and frictions settle too: nothing of that stays between the lines.
+    let source = &Source { style: Style::Passing, ..*source };
     let mut pilot = pilot::fly(&scene, source)?;
+    if let Some(lacking) = evidence::lacking(&scene, &pilot) {
+        say(&format!("whole scene: fraction retained {:.4}", pilot.retained));
+        let loss = pilot.outcome.tally.capillary_loss;
+        say(budget::text(&pilot.outcome.budget, loss).trim_end());
+        say(&evidence::too_little(&scene, &lacking, whole_time));
+        return Ok(());
+    }
     // The first run also pays for what is made once.
     let mut times = Vec::new();
     let mut scatter = 0.0_f64;

@@ -20,6 +20,8 @@ pub(crate) struct Pilot {
     pub(crate) retained: f64,
     /// And that of each class.
     pub(crate) classes: Vec<f64>,
+    /// Spheres of each class at the start.
+    pub(crate) counts: Vec<u64>,
     /// Shares of all liquid: on walls, collected with the fines, in bridges.
     pub(crate) liquid: [f64; 3],
     /// Processor time of the run, s: what other programs do meanwhile does not count.
@@ -52,12 +54,13 @@ pub(crate) fn fly(scene: &Scene, source: &Source<'_>) -> Result<Pilot, RunError>
     };
     let derived = built.derived.clone();
     let begun = ProcessTime::now();
-    let outcome = run::run(scene, built, &job, None, &Progress::new(scene.time, Style::Silent))?;
+    let style = if source.style == Style::Passing { Style::Passing } else { Style::Silent };
+    let outcome = run::run(scene, built, &job, None, &Progress::new(scene.time, style))?;
     let seconds = begun.elapsed().as_secs_f64();
     let density = scene.liquid.as_ref().map_or(0.0, |liquid| liquid.density);
     let (retained, classes) = retained(&outcome.tally, &outcome.start, &derived.masses, density);
     let tally = &outcome.tally;
     let share = |volume: f64| if derived.liquid > 0.0 { volume / derived.liquid } else { 0.0 };
     let liquid = [tally.parts.iter().sum(), tally.fines.iter().sum(), tally.bridges].map(share);
-    Ok(Pilot { retained, classes, liquid, seconds, outcome })
+    Ok(Pilot { retained, classes, counts: derived.counts, liquid, seconds, outcome })
 }

@@ -25,6 +25,8 @@ pub(crate) enum Style {
     People,
     /// A JSON object a line on stdout.
     Json,
+    /// A bar on a terminal, taken away when it is done: for what is only part of a command.
+    Passing,
     /// No progress, but the results at the end.
     Quiet,
     /// Nothing: a run of many, or one whose results are thrown away.
@@ -32,6 +34,11 @@ pub(crate) enum Style {
 }
 
 impl Style {
+    /// Whether there is room for notes on what is not as it should be.
+    pub(crate) fn has_notes(self) -> bool {
+        !matches!(self, Self::Passing | Self::Silent)
+    }
+
     /// What the command line asks for.
     pub(crate) fn of(how: &How) -> Self {
         match (how.quiet, how.json) {
@@ -90,7 +97,7 @@ impl Progress {
     /// Over `time` s of simulated time.
     pub(crate) fn new(time: f64, style: Style) -> Self {
         let bar = ProgressBar::new((1e6 * time).round() as u64);
-        if style != Style::People {
+        if !matches!(style, Style::People | Style::Passing) {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
         let template = "{bar:28} {percent:>3} %  {msg}";
@@ -180,7 +187,7 @@ impl Progress {
                 });
                 say::line(format_args!("{line}"));
             }
-            Style::People => {
+            Style::People | Style::Passing => {
                 let bridges = alive.map_or(String::new(), |n| format!("{n} bridges, "));
                 self.bar.set_position((1e6 * time) as u64);
                 self.bar.set_message(format!(

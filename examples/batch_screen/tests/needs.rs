@@ -2,21 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn run(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_batch_screen"))
-        .current_dir(folder)
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
+use common::{program, run, text};
 
 /// The demo with 40 spheres that start in the air.
 fn small() -> String {
@@ -107,8 +98,11 @@ fn laws_left_open_are_decided_before_the_run_and_written_down() {
 #[test]
 fn needs_proposes_with_evidence() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("small.toml"), small()).unwrap();
-    let done = run(folder.path(), &["needs", "small.toml", "--tolerance", "0.5", "--time", "0.05"]);
+    // Wide enough for all, so that a short run has its passages.
+    let wide =
+        small().replace("aperture_mm = 8", "aperture_mm = 12").replace("time = 0.08", "time = 2");
+    fs::write(folder.path().join("small.toml"), wide).unwrap();
+    let done = run(folder.path(), &["needs", "small.toml", "--tolerance", "0.5", "--time", "0.4"]);
     assert!(done.status.success(), "{}", text(&done.stderr));
     let said = text(&done.stdout);
     assert!(said.contains("differ by chance alone"), "{said}");
@@ -133,4 +127,44 @@ fn needs_proposes_with_evidence() {
     let bad = run(folder.path(), &["needs", "small.toml", "--tolerance", "-1"]);
     assert_eq!(bad.status.code(), Some(2));
     assert!(text(&bad.stderr).contains("tolerance"));
+}
+
+#[test]
+fn needs_proposes_nothing_where_too_little_has_passed() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small().replace("time = 0.08", "time = 2"))
+        .unwrap();
+    // The spheres fall for 0.02 s and more. With this tolerance everything else would be left out.
+    for (time, seen) in [("0.01", "none of the 36 spheres"), ("0.5", "of the 36 spheres")] {
+        let args = ["needs", "small.toml", "--tolerance", "0.9", "--time", time];
+        let done = run(folder.path(), &args);
+        let said = text(&done.stdout);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        for words in ["too little to go by", seen, "nothing is proposed", "up to the scene's 2 s"] {
+            assert!(said.contains(words), "`{words}` is not in: {said}");
+        }
+        assert_eq!(said.contains(" bridges formed"), time == "0.01", "{said}");
+        for words in ["proposed, for", "take it", "nothing can be left out", "rule:"] {
+            assert!(!said.contains(words), "`{words}` is in: {said}");
+        }
+    }
+}
+
+#[test]
+fn what_settles_is_told_before_the_table_of_needs() {
+    let folder = tempfile::tempdir().unwrap();
+    let few = common::small().replace("aperture_mm = 8", "aperture_mm = 12");
+    fs::write(folder.path().join("s.toml"), few.replace("time = 0.08", "time = 2")).unwrap();
+    // Both streams in one file, as on a terminal.
+    let both = fs::File::create(folder.path().join("said")).unwrap();
+    let args = ["needs", "s.toml", "--tolerance", "0.5", "--time", "0.7", "--beds", "beds"];
+    let mut child = program();
+    let child = child.current_dir(folder.path()).args(args).stdout(both.try_clone().unwrap());
+    assert!(child.stderr(both).status().unwrap().success());
+    let said = fs::read_to_string(folder.path().join("said")).unwrap();
+    let (before, after) = said.split_once("pilot runs of 0.7 s").unwrap();
+    assert!(before.contains("settling 24 spheres") && !after.contains("settling"), "{said}");
+    assert!(after.contains("rule:"), "{said}");
+    // More than one bed has settled: those of the twins have steps of their own.
+    assert!(fs::read_dir(folder.path().join("beds")).unwrap().count() > 1);
 }

@@ -74,7 +74,7 @@ pub(crate) fn place(
             if let Some(file) = kept.as_ref().filter(|file| file.exists()) {
                 match look(file, &radii, &densities, &counts) {
                     Ok(bed) => return Ok(bed),
-                    Err(why) if source.style != Style::Silent => say::note(format_args!(
+                    Err(why) if source.style.has_notes() => say::note(format_args!(
                         "the kept bed {} is not used: {why}; the bed settles again",
                         file.display()
                     )),

@@ -101,7 +101,7 @@ pub(super) fn settle(
     progress.finish();
     let last = at(&bed);
     progress.settled(&last);
-    if last.motion >= AT_REST && how.style != Style::Silent {
+    if last.motion >= AT_REST && how.style.has_notes() {
         say::note(format_args!(
             "the bed still moves after {:.2} s, the longest that packing.settle_at_most allows: its \
              energy of motion is {:.1e} of that of a fall by one radius; it starts at rest",
