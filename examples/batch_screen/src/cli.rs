@@ -33,8 +33,10 @@ fn ending(name: &str, wanted: &str) -> Result<PathBuf, String> {
     Err(format!("allowed: a name that ends in .{wanted}; a file of that name is replaced"))
 }
 
+/// Whole numbers of TOML end there: a seed stands in the scene that a run leaves behind.
 fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("allowed: a whole number from 0 to {}", u64::MAX))
+    let number = text.parse::<i64>().ok().and_then(|seed| u64::try_from(seed).ok());
+    number.ok_or_else(|| format!("allowed: a whole number from 0 to {}", i64::MAX))
 }
 
 /// Moist batch screening with the discrete element method.

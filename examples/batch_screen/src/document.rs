@@ -122,6 +122,9 @@ fn plain(message: &str) -> String {
     if told == "floating-point number overflowed" {
         return format!("{told}; allowed: a number up to {:e}", f64::MAX);
     }
+    if told.ends_with(" value was too large") {
+        return format!("the number is too large; allowed: a whole number up to {}", i64::MAX);
+    }
     if told.starts_with("missing field") {
         format!("{told}; allowed: a value for it")
     } else {

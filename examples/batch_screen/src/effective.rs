@@ -41,18 +41,16 @@ pub(crate) fn write(
         "{FIRST}: {}, with all that the command line and the program decided.\n\
          # Run it again with: batch_screen run {NAME}{}\n\n",
         job.source.replace(char::is_control, " "),
-        options(scene, job, allow_unstable)
+        options(job, allow_unstable)
     );
     fs::write(&path, head + &values).map_err(fail)
 }
 
 /// What no key of a scene can say.
-fn options(scene: &Scene, job: &Job, allow_unstable: bool) -> String {
+fn options(job: &Job, allow_unstable: bool) -> String {
     let vtk = job.vtk.map_or(String::new(), |interval| format!(" --vtk {interval}"));
     let unstable = if allow_unstable { " --allow-unstable" } else { "" };
-    // Numbers of TOML end earlier than seeds.
-    let seed = i64::try_from(scene.seed).is_err().then(|| format!(" --seed {}", scene.seed));
-    format!("{vtk}{unstable}{}", seed.unwrap_or_default())
+    format!("{vtk}{unstable}")
 }
 
 fn values(scene: &Scene, derived: &Derived, job: &Job) -> Table {
@@ -63,9 +61,8 @@ fn values(scene: &Scene, derived: &Derived, job: &Job) -> Table {
     if let Some(step) = scene.time_step {
         put("time_step", step.into());
     }
-    if let Ok(seed) = i64::try_from(scene.seed) {
-        put("seed", seed.into());
-    }
+    // No scene and no option lets a larger one through.
+    put("seed", i64::try_from(scene.seed).unwrap_or(i64::MAX).into());
     if let Some(Value::Table(liquid)) = root.get_mut("liquid") {
         for (key, value) in &job.decided {
             liquid.insert(key.clone(), value.clone().into());

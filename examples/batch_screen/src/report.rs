@@ -142,7 +142,7 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
     text += &budget::text(&outcome.budget, tally.capillary_loss);
     let seconds = outcome.wall_time.as_secs_f64();
     text += &format!(
-        "  {} steps in {seconds:.1} s; largest overlap {:.2} % of a radius\n  {}",
+        "  {} steps in {seconds:.1} s of wall time; largest overlap {:.2} % of a radius\n  {}",
         outcome.steps,
         100.0 * outcome.largest_overlap,
         outcome.spent.line()

@@ -6,7 +6,7 @@ use pendular::dem::Profile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-/// Computing time by what it was for; parallel parts are summed over the threads.
+/// Wall time by what it was for; parallel parts are summed over the threads.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(crate) struct Spent {
     neighbours: Duration,
@@ -70,7 +70,7 @@ impl Spent {
     pub(crate) fn line(&self) -> String {
         let one = |(name, share)| format!("{name} {share:.0} %");
         let told: Vec<String> = self.shares().into_iter().map(one).collect();
-        format!("computing time: {}", told.join(", "))
+        format!("wall time: {}", told.join(", "))
     }
 }
 

@@ -51,7 +51,7 @@ fn a_wet_run_writes_its_tables_and_keeps_its_liquid() {
     let percent = summary["time_split_percent"].as_object().unwrap();
     let all: f64 = percent.values().map(|v| v.as_f64().unwrap()).sum();
     assert!(percent.len() == 6 && (all - 100.0).abs() < 1e-9, "{percent:?}");
-    assert!(text(&done.stdout).contains("computing time: neighbours"));
+    assert!(text(&done.stdout).contains("wall time: neighbours"));
     let mut retained = csv::Reader::from_path(folder.path().join("one/retained.csv")).unwrap();
     let first = retained.records().next().unwrap().unwrap();
     assert_eq!(&first[0], "0.000000");
@@ -231,6 +231,12 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
     ("from = \"bin\"", "from = \"heap\"", "", &["packing", "random", "bin", "file"]),
     ("solid_fraction = 0.3", "fraction = 0.3", "", &["packing.fraction", "solid_fraction"]),
     ("seed = 1\n", "seed = 1.5\n", "", &["seed", "a whole number"]),
+    (
+        "seed = 1\n",
+        "seed = 9223372036854775808\n",
+        "",
+        &["seed", "too large; allowed: a whole number up to 9223372036854775807"],
+    ),
     ("output_interval = 0.01", "output_interval = 0", "", &["output_interval", "above 0"]),
     ("phase_deg = [90, 45, 0]", "phase_deg = [90, 45]", "", &["motion.phase_deg", "3"]),
     (
@@ -295,6 +301,8 @@ fn options_of_the_command_line_change_the_scene_and_are_named() {
         ("--vtk", "1e-99", "command line, --vtk: key `vtk`"),
         ("--threads", "-1", "allowed: 1 to 1024"),
         ("--seed", "-1", "allowed: a whole number from 0"),
+        ("--seed", "9223372036854775808", "a whole number from 0 to 9223372036854775807"),
+        ("--set", "seed=9223372036854775808", "key `seed`"),
         ("--dt", "1e-3", "command line, --dt: key `time_step`"),
     ] {
         let done = run(folder.path(), &["run", "small.toml", option, value]);
@@ -347,6 +355,20 @@ fn the_scene_as_it_was_run_is_kept_and_runs_the_same() {
         assert!(text(&done.stderr).contains("in/scene.toml is no scene of an earlier run"));
     }
     assert_eq!(fs::read_to_string(at("in/scene.toml")).unwrap(), small());
+}
+
+#[test]
+fn the_largest_seed_runs_again_from_the_kept_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    let loose = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+    let short = ["--time", "0.001", "--set", loose, "--seed", "9223372036854775807", "--out", "a"];
+    let first = run(folder.path(), &[&["run", "small.toml"], &short[..]].concat());
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let again = run(folder.path(), &["run", "a/scene.toml", "--out", "b"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    let replay = |run: &str| fs::read(folder.path().join(run).join("replay.csv")).unwrap();
+    assert!(replay("a") == replay("b"));
 }
 
 #[test]
