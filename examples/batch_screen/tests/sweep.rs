@@ -93,6 +93,51 @@ fn a_sweep_runs_side_by_side_and_a_run_that_fails_stops_no_other() {
 }
 
 #[test]
+fn every_row_and_every_line_of_json_says_how_a_run_ended_and_where_it_is() {
+    let folder = folder(SWEEP);
+    let json = |args: &[&str]| {
+        let done =
+            run(folder.path(), &[&["sweep", "s.toml", "--json", "--threads", "1"], args].concat());
+        let lines = text(&done.stdout);
+        let objects = lines.lines().map(|line| serde_json::from_str(line).unwrap());
+        (done.status.code(), objects.collect::<Vec<serde_json::Value>>())
+    };
+    let (code, lines) = json(&[]);
+    assert_eq!((code, lines.len()), (Some(1), 9));
+    let docs = include_str!("../../../docs/tables.md");
+    let docs = docs.split_once("`sweep --json` prints").unwrap().1;
+    let documented = |line: &serde_json::Value, when: &str| {
+        let row = docs.lines().find(|row| row.starts_with(&format!("| {when} |"))).unwrap();
+        for key in line.as_object().unwrap().keys() {
+            assert!(row.contains(&format!("`{key}`")), "{key} is not in: {row}");
+        }
+    };
+    let rows = table(folder.path());
+    for (k, line) in lines[..8].iter().enumerate() {
+        documented(line, "a run ends");
+        let row = &rows[line["run"].as_str().unwrap()];
+        assert_eq!((&*row["folder"], &*row["status"]), {
+            (line["folder"].as_str().unwrap(), line["status"].as_str().unwrap())
+        });
+        assert_eq!(row["exit"], line["exit"].to_string());
+        let failed = line["exit"] == 2;
+        assert_eq!(folder.path().join(&row["folder"]).join("summary.json").exists(), !failed);
+        assert_eq!((&line["done"], &line["runs"]), (&(k + 1).into(), &8.into()));
+    }
+    documented(&lines[8], "the last line");
+    let end = |runs: u64| {
+        serde_json::json!({
+            "table": "out/s/sweep.csv", "runs": 8,
+            "finished": runs, "failed": 8 - runs, "interrupted": 0, "waiting": 0,
+        })
+    };
+    assert_eq!(lines[8], end(6));
+    // What is done has no line: two are tried again, and a table alone has the last line only.
+    assert_eq!(json(&[]).1.len(), 3);
+    assert_eq!(json(&["--gather"]), (Some(1), vec![end(6)]));
+}
+
+#[test]
 fn a_sweep_that_is_stopped_goes_on_to_the_same_tables() {
     let sweep = "scene = \"small.toml\"\ntime = 0.6\nseeds = [1, 2]\n";
     let folder = folder(sweep);

@@ -123,9 +123,7 @@ impl Sweep<'_> {
             self.tell(&format!("{} runs, {done} of them done", self.plan.runs.len()));
             sheet = self.side_by_side(&left, sheet, jobs)?;
         }
-        if !self.how.json {
-            say::line(format_args!("table in {}", self.out.join("sweep.csv").display()));
-        }
+        self.end(&sheet);
         let (failed, waiting) = (sheet.count(Status::Failed), sheet.count(Status::Waiting));
         if self.stop.load(Ordering::Relaxed) {
             return Err(RunError::SweepStopped {
@@ -136,6 +134,20 @@ impl Sweep<'_> {
             return Err(RunError::Sweep { failed, runs: self.plan.runs.len() });
         }
         Ok(())
+    }
+
+    /// Says where the table is, and how many runs stand how.
+    fn end(&self, sheet: &Sheet) {
+        let table = self.out.join("sweep.csv");
+        if !self.how.json {
+            say::line(format_args!("table in {}", table.display()));
+            return;
+        }
+        let mut line = serde_json::json!({ "table": table, "runs": self.plan.runs.len() });
+        for status in [Status::Finished, Status::Failed, Status::Interrupted, Status::Waiting] {
+            line[status.name()] = sheet.count(status).into();
+        }
+        say::line(format_args!("{line}"));
     }
 
     fn side_by_side(&self, left: &[usize], sheet: Sheet, jobs: usize) -> Result<Sheet, RunError> {
@@ -190,8 +202,8 @@ impl Sweep<'_> {
         let all = self.plan.runs.len();
         if self.how.json {
             let line = serde_json::json!({
-                "run": run.name, "status": status.name(), "exit": code, "message": tail,
-                "done": done, "runs": all,
+                "run": run.name, "folder": folder, "status": status.name(), "exit": code,
+                "message": tail, "done": done, "runs": all,
             });
             say::line(format_args!("{line}"));
         }

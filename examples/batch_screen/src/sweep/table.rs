@@ -42,7 +42,7 @@ const RESULTS: [(&str, &str); 9] = [
 ];
 
 /// Columns that tell how a run went.
-const OUTCOME: [&str; 3] = ["status", "exit", "message"];
+const OUTCOME: [&str; 4] = ["status", "exit", "folder", "message"];
 
 fn is_result(column: &str) -> bool {
     RESULTS.iter().any(|(name, _)| *name == column) || column.starts_with("retained ")
@@ -69,7 +69,7 @@ impl Sheet {
         let mut columns = vec!["run".to_owned()];
         // A seed that a row sets stands where every run's seed does.
         columns.extend(plan.keys.iter().filter(|key| *key != "seed").cloned());
-        columns.extend(["seed", "status", "exit"].map(str::to_owned));
+        columns.extend(["seed", "status", "exit", "folder"].map(str::to_owned));
         columns.extend(RESULTS[..2].iter().map(|(name, _)| (*name).to_owned()));
         columns.extend(plan.classes.iter().map(|class| format!("retained {class}")));
         columns.extend(RESULTS[2..].iter().map(|(name, _)| (*name).to_owned()));
@@ -161,6 +161,7 @@ impl Sheet {
     ) {
         self.put(row, "status", status.name());
         self.put(row, "exit", exit.map_or(String::new(), |code| code.to_string()));
+        self.put(row, "folder", folder.to_string_lossy());
         self.put(row, "message", message.split_whitespace().collect::<Vec<_>>().join(" "));
         let results =
             self.columns.iter().zip(&mut self.rows[row]).filter(|(name, _)| is_result(name));
