@@ -1,5 +1,6 @@
 //! The run: steps, passages, rows of results, checkpoints.
 
+mod limit;
 mod start;
 
 use std::cell::Cell;
@@ -46,7 +47,7 @@ pub(crate) struct Outcome {
     pub(crate) largest_overlap: f64,
     pub(crate) wall_time: Duration,
     pub(crate) budget: Budget,
-    /// The least stability limit of the packing at any row, s.
+    /// The least stability limit of the packing at any look, s.
     pub(crate) limit: f64,
     pub(crate) spent: Spent,
     /// How hard implicit drags were to find since the run was started or taken up again.
@@ -128,7 +129,7 @@ impl<T: Makeup> Run<'_, T> {
         let mut saved = begun;
         let step = self.simulation.settings().time_step;
         let last = (self.scene.time / step).round() as u64;
-        let at = |k: u64, interval: f64| (k as f64 * interval / step).round() as u64;
+        let at = |k: u64, interval: f64| row_at(k, interval, step);
         let replay = self.scene.time / FRAMES as f64;
         let vtk_at = |k: u64| self.job.vtk.map_or(u64::MAX, |interval| at(k, interval));
         let interval = self.scene.output_interval;
@@ -288,7 +289,12 @@ impl<T: Makeup> Run<'_, T> {
 
     fn row(&mut self) -> Result<Tally, RunError> {
         let tally = self.tally();
-        self.stable()?;
+        let (now, settings) = (self.simulation.step(), self.simulation.settings());
+        let at = |row: u64| row_at(row, self.scene.output_interval, settings.time_step);
+        let last = (self.scene.time / settings.time_step).round() as u64;
+        if limit::is_due(now, self.rows.checked_sub(1).map(at), last) {
+            self.stable()?;
+        }
         let blocked = self.screening.blocked(&self.simulation);
         self.tables.row(&tally, &blocked, self.apertures)?;
         Ok(tally)
@@ -360,6 +366,11 @@ impl<T: Makeup> Run<'_, T> {
         count[class] += 1;
         liquid[class] += film;
     }
+}
+
+/// The step at which something is due for the `k`-th time.
+fn row_at(k: u64, interval: f64, step: f64) -> u64 {
+    (k as f64 * interval / step).round() as u64
 }
 
 fn part_names<T: Makeup>(simulation: &Simulation<T, MeshWalls>) -> Vec<String> {
