@@ -12,10 +12,12 @@ use crate::scene::{LiquidSpec, Scene};
 mod extremes;
 mod feed;
 mod ranges;
+mod units;
 mod volumes;
 
 pub(crate) use extremes::{STEEP, steps};
 pub(crate) use ranges::laws;
+pub(crate) use units::units;
 pub(crate) use volumes::volumes;
 
 /// Most wires of one direction that a sieve can have.

@@ -1,12 +1,10 @@
 //! What the commands do.
 
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-
-use signal_hook::consts::{SIGINT, SIGTERM};
 
 use crate::build::{self, Built, Files, Source};
 use crate::checkpoint::Checkpoint;
@@ -19,7 +17,7 @@ use crate::progress::{Progress, Style};
 use crate::run::{self, Job};
 use crate::say;
 use crate::scene::{Packing, Scene};
-use crate::{auto, builtin, folder, limits, needs, page, progress, report};
+use crate::{auto, builtin, folder, limits, needs, page, progress, replace, report, signals};
 
 /// Lists the built-in scenes.
 pub(crate) fn list() -> Result<(), RunError> {
@@ -44,8 +42,8 @@ pub(crate) fn sample(file: Option<PathBuf>, sweep: bool, overwrite: bool) -> Res
         false => (builtin::find("demo").unwrap_or_default(), "scene.toml", "run"),
     };
     let path = file.unwrap_or_else(|| PathBuf::from(name));
-    let open = if overwrite { fs::File::create(&path) } else { fs::File::create_new(&path) };
-    let written = open.and_then(|mut file| file.write_all(text.as_bytes()));
+    let written =
+        if overwrite { fs::write(&path, text) } else { replace::create(&path, text.as_bytes()) };
     written.map_err(|source| match source.kind() {
         ErrorKind::AlreadyExists => RunError::Exists { path: path.clone() },
         _ => RunError::Write { path: path.clone(), source },
@@ -164,7 +162,7 @@ pub(crate) fn needs(
 
 /// Runs a scene.
 pub(crate) fn run(args: &RunArgs) -> Result<(), RunError> {
-    run_until(args, Style::of(&args.how), stop_flag())
+    run_until(args, Style::of(&args.how), signals::stop_flag())
 }
 
 /// What `--set` says, one `KEY=VALUE` each.
@@ -196,6 +194,8 @@ pub(crate) fn run_until(
 ) -> Result<(), RunError> {
     let Loaded { mut scene, text, base, name } = asked(args)?;
     folder::refuse(args.out.as_deref(), args.overwrite)?;
+    let usual = Path::new("out").join(&name);
+    folder::writable(args.out.as_deref().unwrap_or(&usual))?;
     let beds = args.beds.clone().unwrap_or_else(|| Path::new("out").join("beds"));
     let threads = threads(&args.how)?;
     // Refused before the bed is settled, which can take minutes.
@@ -220,7 +220,6 @@ pub(crate) fn run_until(
     built.settings.allow_unstable = args.allow_unstable;
     let base = fs::canonicalize(if base.as_os_str().is_empty() { Path::new(".") } else { &base })
         .map_err(|source| RunError::Write { path: base.clone(), source })?;
-    let usual = Path::new("out").join(&name);
     let out = folder::of_run(args.out.as_deref(), &usual, args.overwrite)?;
     let lock = Lock::take(&out)?;
     let job = Job {
@@ -243,7 +242,7 @@ pub(crate) fn run_until(
 
 /// Goes on with a run from its last checkpoint.
 pub(crate) fn resume(folder: &Path, how: &How) -> Result<(), RunError> {
-    resume_until(folder, how, Style::of(how), stop_flag())
+    resume_until(folder, how, Style::of(how), signals::stop_flag())
 }
 
 /// The checkpoint of a folder that nobody else writes into from now on.
@@ -381,15 +380,4 @@ pub(crate) fn count_threads(asked: Option<usize>) -> Result<usize, SceneError> {
         value: threads.to_string(),
         allowed: format!("1 to {MOST_THREADS}"),
     })
-}
-
-/// A flag that SIGINT and SIGTERM set, so that a run ends with a checkpoint. Where the system does
-/// not allow it, a signal ends the run at once, as it would have.
-pub(crate) fn stop_flag() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        let _ = signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&stop));
-        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
-    }
-    stop
 }

@@ -12,6 +12,10 @@ pub(crate) enum SceneError {
     Unreadable { file: PathBuf, source: std::io::Error },
     #[error("{place}: is no UTF-8 text; allowed: TOML saved as UTF-8")]
     NotText { place: Place },
+    #[error(
+        "{place}: there is no key in the file; allowed: a scene, such as `batch_screen sample` writes"
+    )]
+    Empty { place: Place },
     #[error("cannot write {}: {source}", file.display())]
     Unwritable { file: PathBuf, source: std::io::Error },
     #[error("{place}: key `{key}`: {message}")]

@@ -24,6 +24,13 @@ pub(crate) fn refuse(asked: Option<&Path>, overwrite: bool) -> Result<(), RunErr
     effective::refuse(folder, holds)
 }
 
+/// Refuses a folder that cannot be written into, before a bed settles for it. Nothing is made there.
+pub(crate) fn writable(folder: &Path) -> Result<(), RunError> {
+    let there = folder.ancestors().find(|path| path.exists()).unwrap_or(Path::new("."));
+    let fail = |source| RunError::Write { path: folder.to_path_buf(), source };
+    tempfile::tempfile_in(there).map(drop).map_err(fail)
+}
+
 fn holds_run(folder: &Path) -> bool {
     OF_A_RUN.iter().any(|name| folder.join(name).exists())
 }

@@ -28,6 +28,7 @@ mod page;
 mod pilot;
 mod place;
 mod progress;
+mod replace;
 mod report;
 mod run;
 mod say;
@@ -35,6 +36,7 @@ mod scene;
 #[cfg(test)]
 mod scene_docs;
 mod screening;
+mod signals;
 mod spent;
 mod sweep;
 mod tables;
@@ -55,6 +57,7 @@ fn main() -> ExitCode {
         cli => cli,
     };
     let Some(command) = cli.command else { return ExitCode::FAILURE };
+    signals::survive_full_files();
     let done = match command {
         Command::List => commands::list(),
         Command::Show { name } => commands::show(&name),

@@ -77,6 +77,7 @@ fn of(scene: &Scene, built: &Built) -> Vec<String> {
     if scene.liquid.as_ref().is_some_and(|liquid| liquid.moisture_percent == 0.0) {
         notes.push("liquid.moisture_percent is 0: a dry run; without [liquid] it is faster".into());
     }
+    notes.extend(crate::check::units(scene));
     notes.extend(crate::check::volumes(scene, built));
     notes.extend(reached(scene, built));
     notes.extend(fall(scene, built.particles.classes()));

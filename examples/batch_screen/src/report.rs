@@ -9,6 +9,7 @@ use crate::budget;
 use crate::build::{Built, Derived};
 use crate::error::RunError;
 use crate::guard::Guard;
+use crate::replace::replace;
 use crate::run::Outcome;
 use crate::scene::{Drag, Scene, WireKind};
 use crate::screening::partition;
@@ -247,13 +248,10 @@ pub(crate) fn summary(
         "time_split_s": outcome.spent.seconds(),
         "time_split_percent": outcome.spent.percent(),
     });
-    // Beside its place first: who looks in finds a whole summary.
     let write = || -> std::io::Result<()> {
         let mut text = serde_json::to_vec_pretty(&document)?;
         text.push(b'\n');
-        let beside = path.with_extension("json.part");
-        std::fs::write(&beside, text)?;
-        std::fs::rename(&beside, path)
+        replace(path, &text)
     };
     write().map_err(|source| RunError::Write { path: path.to_path_buf(), source })
 }

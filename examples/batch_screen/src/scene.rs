@@ -194,7 +194,10 @@ impl Scene {
 
     /// Reads a scene from a text whose values were given at `origin`.
     pub(crate) fn read(text: &str, origin: Origin) -> Result<Self, SceneError> {
-        let table = document::read(text, &origin)?;
+        let table: toml::Table = document::read(text, &origin)?;
+        if table.is_empty() {
+            return Err(SceneError::Empty { place: origin.place("") });
+        }
         crate::forms::check(&table, &origin)?;
         let mut scene: Self = document::read(text, &origin)?;
         scene.document = table;

@@ -227,3 +227,35 @@ fn laws_whose_range_the_first_bridges_miss_are_named_before_the_run() {
     assert_eq!(done.status.code(), Some(3), "{}", text(&done.stderr));
     assert!(text(&done.stderr).contains("V/R^3"), "{}", text(&done.stderr));
 }
+
+#[test]
+fn a_file_without_a_key_and_values_in_other_units_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for empty in ["", "# a title\n\n"] {
+        fs::write(folder.path().join("s.toml"), empty).unwrap();
+        let done = run(folder.path(), &["run", "s.toml"]);
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{said}");
+        assert!(said.contains("s.toml, line 1: there is no key in the file"), "{said}");
+        assert!(said.contains("`batch_screen sample`"), "{said}");
+    }
+    fs::write(folder.path().join("s.toml"), small()).unwrap();
+    // Millinewton per metre, g/cm3, mPa s, GPa, radians.
+    for (set, wanted) in [
+        ("liquid.surface_tension=72.75", "liquid.surface_tension = 72.75 is in N/m: what there is"),
+        ("classes[1].density=2.65", "classes[1].density = 2.65 is in kg/m3: what there is has 20"),
+        ("liquid.viscosity=1e6", "liquid.viscosity = 1000000 is in Pa s: what there is"),
+        ("materials.POM.youngs_modulus=3.1", "materials.POM.youngs_modulus = 3.1 is in Pa"),
+        ("materials.POM.contact_angle_deg=0.7", "in degrees, not in radians"),
+    ] {
+        let done = run(folder.path(), &["check", "s.toml", "--set", set, "--dt", "1e-9"]);
+        let said = text(&done.stdout);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        let notes = said.lines().filter(|line| line.contains("  note  "));
+        assert_eq!(notes.filter(|line| line.contains(wanted)).count(), 1, "{set}: {said}");
+    }
+    for scene in ["s.toml", "demo", "e18-01", "e18-18"] {
+        let said = text(&run(folder.path(), &["check", scene]).stdout);
+        assert!(!said.contains("what there is has"), "{said}");
+    }
+}

@@ -2,6 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
+#[allow(dead_code, reason = "pages are always replaced")]
+#[path = "../src/replace.rs"]
+mod replace;
+
 #[path = "../src/page/mod.rs"]
 mod page;
 

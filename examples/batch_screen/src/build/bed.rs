@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,6 +13,7 @@ use super::{apparatus, region};
 use crate::error::SceneError;
 use crate::packing::{self, Placed, Space};
 use crate::progress::Style;
+use crate::replace::replace;
 use crate::say;
 use crate::scene::{Packing, Scene};
 
@@ -231,17 +231,18 @@ fn fnv(bytes: &[u8]) -> u64 {
         .fold(0xcbf2_9ce4_8422_2325, |hash, &b| (hash ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
 }
 
+/// Before a bed settles, which can take minutes: there has to be a place to keep it in.
 fn make_folder(file: &Path) -> Result<(), SceneError> {
     let folder = file.parent().unwrap_or(Path::new("."));
     let fail = |source| SceneError::Unwritable { file: folder.to_path_buf(), source };
-    fs::create_dir_all(folder).map_err(fail)
+    fs::create_dir_all(folder).map_err(fail)?;
+    tempfile::tempfile_in(folder).map(drop).map_err(fail)
 }
 
-/// Writes a bed beside its place and moves it there, so that no half file is ever read.
+/// Writes a bed to be used again.
 fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneError> {
     let fail = |source| SceneError::Unwritable { file: file.to_path_buf(), source };
     make_folder(file)?;
-    let part = file.with_extension(format!("part-{}", std::process::id()));
     let mut text = String::from("id,x,y,z,radius,density\n");
     for (id, one) in settled.iter().enumerate() {
         let class = &classes[usize::from(one.class)];
@@ -250,13 +251,7 @@ fn keep(file: &Path, classes: &[Class], settled: &[Placed]) -> Result<(), SceneE
         text += &format!("{id},{x:?},{y:?},{z:?},{:?},{:?}\n", class.radius(), class.density());
     }
     text += &format!("{CHECKSUM}{}\n", checksum(&text));
-    let write = || -> std::io::Result<()> {
-        let mut out = fs::File::create(&part)?;
-        out.write_all(text.as_bytes())?;
-        out.sync_all()
-    };
-    write().map_err(fail)?;
-    fs::rename(&part, file).map_err(fail)
+    replace(file, text.as_bytes()).map_err(fail)
 }
 
 #[cfg(test)]

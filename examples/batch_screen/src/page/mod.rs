@@ -15,6 +15,7 @@ use serde_json::json;
 use self::embed::{html, script_json};
 pub(crate) use self::error::PageError;
 use self::folder::{Run, TABLES};
+use crate::replace::replace;
 
 /// Bytes that a page may take; moments of the replay are left out beyond it.
 const PAGE: usize = 12_000_000;
@@ -135,10 +136,7 @@ fn page(kind: &str, title: &str, runs: &[&Run]) -> String {
     )
 }
 
-/// Writes the page beside its place and moves it there, so that a page is never half a page.
 fn write(path: &Path, text: &str) -> Result<(), PageError> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let done = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
-    done.map_err(|source| PageError::Write { path: path.to_path_buf(), source })
+    let wrong = |source| PageError::Write { path: path.to_path_buf(), source };
+    replace(path, text.as_bytes()).map_err(wrong)
 }

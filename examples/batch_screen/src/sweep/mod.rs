@@ -57,7 +57,7 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
         None => {
             let beds = args.beds.clone().unwrap_or_else(|| out.join("beds"));
             let how = How { threads: Some(threads), ..args.how.clone() };
-            let stop = commands::stop_flag();
+            let stop = crate::signals::stop_flag();
             let sweep = Sweep { plan: &plan, args, out: &out, beds, how, stop };
             std::fs::create_dir_all(&out)
                 .map_err(|source| RunError::Write { path: out.clone(), source })?;

@@ -1,12 +1,12 @@
 //! The table of a sweep: a row per run, written anew after each, so that it is always whole.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use super::plan::{Plan, Planned};
 use crate::error::RunError;
+use crate::replace::replace;
 
 /// How a run of a sweep stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,14 +202,6 @@ impl Sheet {
             writer.write_record(row).map_err(|e| fail(std::io::Error::other(e.to_string())))?;
         }
         let text = writer.into_inner().map_err(|e| fail(e.into_error()))?;
-        let folder = self.path.parent().unwrap_or(Path::new("."));
-        let write = || -> std::io::Result<()> {
-            let mut file = tempfile::NamedTempFile::new_in(folder)?;
-            file.write_all(&text)?;
-            file.as_file().sync_all()?;
-            file.persist(&self.path)?;
-            Ok(())
-        };
-        write().map_err(fail)
+        replace(&self.path, &text).map_err(fail)
     }
 }

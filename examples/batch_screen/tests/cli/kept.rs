@@ -131,3 +131,39 @@ fn a_run_takes_the_place_of_another_only_when_asked_to() {
     }
     assert_eq!(fs::read(folder.path().join("beds.toml")).unwrap(), scene);
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_cannot_be_written_is_found_before_the_bed_settles_and_leaves_no_half_files() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), small()).unwrap();
+    for place in [["--out", "/proc/no-such"], ["--beds", "/proc/self"]] {
+        let done = run(folder.path(), &[&["run", "small.toml"], &place[..]].concat());
+        let said = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{said}");
+        assert!(said.contains("cannot write /proc/") && !said.contains("settling"), "{said}");
+    }
+    // A limit of 24 kB on every file: the replay does not fit.
+    let limited = |command: &str| {
+        let command =
+            format!("ulimit -f 24; exec {} {command}", env!("CARGO_BIN_EXE_batch_screen"));
+        let mut shell = std::process::Command::new("bash");
+        shell.current_dir(folder.path()).args(["-c", &command]).output().unwrap()
+    };
+    let loose = "packing={from=\"random\", solid_fraction=0.2, clearance_mm=2}";
+    let done = limited(&format!("run small.toml --set '{loose}' --out full"));
+    let said = text(&done.stderr);
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    assert!(said.contains("cannot write full/replay.csv"), "{said}");
+    let names = fs::read_dir(folder.path().join("full")).unwrap().map(|e| e.unwrap().file_name());
+    let half: Vec<_> = names.filter(|name| name.to_string_lossy().contains(".part")).collect();
+    assert!(half.is_empty(), "{half:?}");
+    // With room again it goes on, to what a run that always had it gives.
+    let resumed = run(folder.path(), &["resume", "full"]);
+    assert!(resumed.status.success(), "{}", text(&resumed.stderr));
+    assert!(
+        run(folder.path(), &["run", "small.toml", "--set", loose, "--out", "a"]).status.success()
+    );
+    let bytes = |run: &str, name: &str| fs::read(folder.path().join(run).join(name)).unwrap();
+    TABLES.iter().for_each(|name| assert!(bytes("a", name) == bytes("full", name), "{name}"));
+}
