@@ -115,6 +115,20 @@ pub(crate) fn interval(option: &str, value: f64) -> Result<(), SceneError> {
     Err(SceneError::Value { place, key, value: number(value), allowed })
 }
 
+/// Checks a share of the command line.
+pub(crate) fn share(option: &str, value: f64) -> Result<(), SceneError> {
+    if value > 0.0 && value <= 1.0 {
+        return Ok(());
+    }
+    let (place, key) = (Place::option(option), option.trim_start_matches('-').to_owned());
+    Err(SceneError::Value {
+        place,
+        key,
+        value: number(value),
+        allowed: "above 0, at most 1".into(),
+    })
+}
+
 /// Checks the interval of ParaView files.
 pub(crate) fn vtk(scene: &Scene, interval: f64) -> Result<(), SceneError> {
     self::interval("--vtk", interval)?;

@@ -149,7 +149,7 @@ pub(crate) fn needs(
     threads: Option<usize>,
 ) -> Result<(), RunError> {
     let Loaded { mut scene, base, .. } = load(name, &[])?;
-    crate::check::interval("--tolerance", tolerance)?;
+    crate::check::share("--tolerance", tolerance)?;
     crate::check::interval("--time", time)?;
     let kept = Path::new("out").join("beds");
     let beds = Some(beds.unwrap_or(&kept));

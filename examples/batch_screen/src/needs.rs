@@ -73,7 +73,10 @@ pub(crate) fn needs(
     if let Some(lacking) = evidence::lacking(&scene, &pilot) {
         say(&format!("whole scene: fraction retained {:.4}", pilot.retained));
         let loss = pilot.outcome.tally.capillary_loss;
-        say(budget::text(&pilot.outcome.budget, loss).trim_end());
+        let table = budget::text(&pilot.outcome.budget, loss);
+        if !table.is_empty() {
+            say(table.trim_end());
+        }
         say(&evidence::too_little(&scene, &lacking, whole_time));
         return Ok(());
     }

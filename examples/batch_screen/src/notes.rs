@@ -56,6 +56,10 @@ fn of(scene: &Scene, built: &Built) -> Vec<String> {
             number(scene.output_interval)
         ));
     }
+    if scene.time < 0.5 * time_step {
+        let (time, step) = (number(scene.time), number(time_step));
+        notes.push(format!("time = {time} s is below half a step of {step} s: nothing moves"));
+    }
     if scene.gravity[2] >= 0.0 {
         notes.push("gravity[2] is not below 0: nothing falls onto the screen".into());
     }

@@ -23,6 +23,10 @@ fn a_check_tells_steps_and_what_is_hardly_meant() {
         (&["--set", "contact.stiffness=100"], "contact.stiffness = 100 N/m is low"),
         (&["--set", "gravity=[0, 0, 0]", "--set", LOOSE], "nothing falls onto the screen"),
         (&["--set", "liquid.moisture_percent=0"], "liquid.moisture_percent is 0"),
+        (&["--set", "time=1e-6"], "time = 1e-6 s is below half a step of 5e-6 s: nothing moves"),
+        (&["--set", "motion.amplitude_mm=[0, 0, 0]"], "the screen stands still"),
+        // 1 mm at 3000 Hz, where 3000 a minute was meant: 1e-3 (2 pi 3000)^2 m/s2.
+        (&["--set", "motion.frequency=3000"], "shakes at up to 3.6e5 m/s2, 36219 times the weight"),
     ] {
         let done = run(folder.path(), &[&["check", "s.toml"], options].concat());
         let said = text(&done.stdout);

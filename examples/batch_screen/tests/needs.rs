@@ -124,9 +124,12 @@ fn needs_proposes_with_evidence() {
     } else {
         assert!(said.contains("nothing can be left out"), "{said}");
     }
-    let bad = run(folder.path(), &["needs", "small.toml", "--tolerance", "-1"]);
-    assert_eq!(bad.status.code(), Some(2));
-    assert!(text(&bad.stderr).contains("tolerance"));
+    for wrong in ["-1", "nan", "2"] {
+        let bad = run(folder.path(), &["needs", "small.toml", "--tolerance", wrong]);
+        assert_eq!(bad.status.code(), Some(2));
+        assert!(text(&bad.stderr).contains("tolerance"));
+        assert!(text(&bad.stderr).contains("above 0, at most 1"));
+    }
 }
 
 #[test]

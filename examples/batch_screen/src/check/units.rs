@@ -36,5 +36,28 @@ pub(crate) fn units(scene: &Scene) -> Vec<String> {
         look("liquid.surface_tension".into(), liquid.surface_tension, (1e-3, 2.5), "in N/m");
         look("liquid.viscosity".into(), liquid.viscosity, (1e-4, 1e4), "in Pa s");
     }
+    notes.extend(motion(scene));
     notes
+}
+
+/// Sieves shake at up to some ten times the weight, m/s².
+const HARDEST: f64 = 1e3;
+
+/// A screen that stands still, or shakes as none does.
+fn motion(scene: &Scene) -> Option<String> {
+    let one = |term: crate::scene::HarmonicTerm| {
+        let farthest = 1e-3 * term.amplitude_mm.iter().fold(0.0, |m: f64, a| m.max(*a));
+        farthest * (std::f64::consts::TAU * term.frequency).powi(2)
+    };
+    let most: f64 = scene.motion.all().map(one).sum();
+    if most == 0.0 {
+        return Some("the screen stands still: motion has no amplitude or no frequency".into());
+    }
+    (most > HARDEST).then(|| {
+        format!(
+            "the screen shakes at up to {most:.1e} m/s2, {:.0} times the weight: motion.frequency is in \
+             Hz, motion.amplitude_mm in mm",
+            most / 9.81
+        )
+    })
 }
