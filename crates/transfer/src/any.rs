@@ -73,6 +73,13 @@ impl RuptureLaw for AnyRupture {
         }
     }
 
+    fn wall_validity(&self) -> Validity {
+        match self {
+            Self::Mikami => Mikami1998.wall_validity(),
+            other => other.validity(),
+        }
+    }
+
     fn distance(&self, bridge: &Bridge, range: Range) -> Result<f64, OutOfRange> {
         match self {
             Self::Lian => Lian1993.distance(bridge, range),

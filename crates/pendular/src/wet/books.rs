@@ -128,7 +128,7 @@ where
         let far = self.curves(&live).map_err(refuse)?;
         let laws = self.laws(second);
         let strange = laws.capillary.validity().check(&bridge).is_err()
-            || laws.rupture.validity().check(&bridge).is_err();
+            || laws.rupture.validity_of(&bridge).check(&bridge).is_err();
         self.counts.extrapolated += u64::from(strange || extrapolated);
         self.shelf.put(seat, far);
         self.live[account as usize] = Some(Seated { split, first, second, seat });

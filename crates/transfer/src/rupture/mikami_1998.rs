@@ -61,9 +61,12 @@ impl RuptureLaw for Mikami1998 {
         }
     }
 
+    fn wall_validity(&self) -> Validity {
+        Self::WALL
+    }
+
     fn distance(&self, bridge: &Bridge, range: Range) -> Result<f64, OutOfRange> {
-        let validity = if bridge.mate().is_wall() { Self::WALL } else { self.validity() };
-        validity.admit(bridge, range)?;
+        self.validity_of(bridge).admit(bridge, range)?;
         let theta = bridge.mean_contact_angle();
         let (radius, factor, exponent) = match bridge.mate() {
             Mate::Sphere { .. } => (bridge.harmonic_radius(), 0.99 + 0.62 * theta, 0.34),
@@ -92,6 +95,19 @@ mod tests {
         let wall = with(Mate::PLANE, 1e-2);
         let by_hand = (0.95 + 0.22 * 0.4) * 1e-2f64.powf(0.32);
         assert_relative_eq!(wall, by_hand, max_relative = 1e-13);
+    }
+
+    /// 1e-5 R³ is in the range of a wall, not in that of two spheres.
+    #[test]
+    fn a_wall_has_its_own_range() {
+        let fits = |mate| {
+            let b = Bridge::new(1.0, mate, 1e-5, [0.3; 2], 1.0).unwrap();
+            let checked = Mikami1998.validity_of(&b).check(&b).is_ok();
+            assert_eq!(checked, Mikami1998.distance(&b, Range::Strict).is_ok());
+            assert_eq!(checked, crate::AnyRupture::Mikami.validity_of(&b).check(&b).is_ok());
+            checked
+        };
+        assert!(fits(Mate::PLANE) && !fits(Mate::Sphere { radius: 1.0 }));
     }
 
     /// Two fits to the same exact shapes agree: within 7 % of Lian over the range.

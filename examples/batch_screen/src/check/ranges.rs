@@ -3,7 +3,6 @@
 
 use pendular::capillary::{AnyCapillary, CapillaryLaw};
 use pendular::pair::{Bridge, Mate, Validity};
-use pendular::transfer::rupture::Mikami1998;
 use pendular::transfer::{AnyRupture, RuptureLaw};
 
 use crate::error::SceneError;
@@ -83,12 +82,8 @@ fn of_rupture(name: &str) -> Option<Validity> {
     name.parse().ok().map(|law: AnyRupture| law.validity())
 }
 
-/// Mikami's law has another formula for walls, with a range of its own.
 fn of_rupture_wall(name: &str) -> Option<Validity> {
-    match name.parse().ok()? {
-        AnyRupture::Mikami => Some(Mikami1998::WALL),
-        law => Some(law.validity()),
-    }
+    name.parse().ok().map(|law: AnyRupture| law.wall_validity())
 }
 
 /// What of a pair lies outside a range, and that range.
