@@ -70,8 +70,9 @@ pub trait TangentialDrag {
     fn curve(&self, bridge: &Bridge, viscosity: f64) -> Result<Self::Curve, OutOfRange>;
 }
 
-/// The tangential resistance of one bridge as a function of the gap alone.
-pub trait TangentialCurve: Copy {
+/// The tangential resistance of one bridge as a function of the gap alone. Whoever holds many may
+/// keep equal ones once.
+pub trait TangentialCurve: Copy + PartialEq {
     /// Resistance at `gap` (m, overlap negative); positive semi-definite and finite for every gap.
     fn resistance(&self, gap: f64) -> Resistance;
 

@@ -1,3 +1,5 @@
+use crate::room::make_room;
+
 /// Where liquid can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Account {
@@ -142,7 +144,7 @@ impl Ledger {
 
     /// Makes room for so many more bridges.
     pub fn reserve(&mut self, bridges: usize) {
-        self.bridges.reserve(bridges.saturating_sub(self.free.len()));
+        make_room(&mut self.bridges, bridges.saturating_sub(self.free.len()));
     }
 
     /// How many bridge accounts there are, open or closed.

@@ -30,6 +30,7 @@ mod adapters;
 mod budget;
 mod laws;
 mod ledger;
+mod room;
 mod split;
 mod wet;
 

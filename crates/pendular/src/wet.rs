@@ -3,6 +3,7 @@ mod bodies;
 mod books;
 mod energy;
 mod forces;
+mod kinds;
 mod shelf;
 mod state;
 mod term;

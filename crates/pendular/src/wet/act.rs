@@ -6,7 +6,7 @@ use pendular_capillary::ForceCurve;
 use pendular_dem_core::{Geometry, Lane, Loads, Resist};
 use pendular_lubrication::{NormalCurve, Resistance, TangentialCurve};
 
-use super::shelf::Far;
+use super::shelf::Open;
 
 /// The forces of one bridge at one gap, before any velocity is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,25 +53,15 @@ impl Pull {
         fade.map(|fade| Self { fade, ..at })
     }
 
-    /// What most bridges have of it: tension, drag, slip resistance and fade, to be read at once.
-    pub(super) fn row(&self) -> Row {
-        Row([self.tension, self.drag, self.resistance.slip, self.fade])
+    /// What each bridge has for itself of it: tension and drag along the line of centres.
+    pub(super) fn own(&self) -> [f64; 2] {
+        [self.tension, self.drag]
     }
 
-    /// What few have: coupling and rolling resistance.
-    pub(super) fn turning(&self) -> [f64; 2] {
-        [self.resistance.coupling, self.resistance.rolling]
+    /// How drags fade in overlap, 1/m.
+    pub(super) fn fade(&self) -> f64 {
+        self.fade
     }
-}
-
-/// The better part of a [`Pull`] at contact.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
-pub(super) struct Row(pub(super) [f64; 4]);
-
-impl Row {
-    /// Where the curves have to be asked.
-    pub(super) const UNKNOWN: Self = Self([0.0, 0.0, 0.0, -1.0]);
 }
 
 /// The same of bridges side by side.
@@ -99,13 +89,13 @@ impl<L: Lane> Pulls<L> {
     /// What the curves give at a gap.
     #[inline(always)]
     pub(super) fn apart<C: ForceCurve, N: NormalCurve, S: TangentialCurve>(
-        far: &L::Each<&Far<C, N, S>>,
+        open: &L::Each<Open<'_, C, N, S>>,
         gap: L,
     ) -> Self {
-        let [slip, coupling, rolling] = S::resistances(&L::each(|k| &far[k].curves.2), gap);
+        let [slip, coupling, rolling] = S::resistances(&L::each(|k| &open[k].1.tangential), gap);
         Self {
-            tension: C::forces(&L::each(|k| &far[k].curves.0), gap),
-            drag: N::coefficients(&L::each(|k| &far[k].curves.1), gap),
+            tension: C::forces(&L::each(|k| &open[k].0.capillary), gap),
+            drag: N::coefficients(&L::each(|k| &open[k].0.normal), gap),
             slip,
             coupling,
             rolling,

@@ -49,7 +49,7 @@ where
     }
 
     /// A live bridge with what acts in it.
-    pub(super) fn seated(&self, bridge: u32) -> Option<(LiveBridge, &FarOf<C, N, S>)> {
+    pub(super) fn seated(&self, bridge: u32) -> Option<(LiveBridge, FarOf<C, N, S>)> {
         let seated = self.live.get(bridge as usize)?.as_ref()?;
         Some((self.live(bridge)?, self.shelf.far(seated.seat)?))
     }
@@ -80,7 +80,7 @@ where
 
     /// Drag coefficients of a live bridge, as they enter the stability limit.
     pub(super) fn drag_on_limit(&self, bridge: u32, gap: f64) -> StabilityLoad {
-        let coefficients = |(_, far): (_, &FarOf<C, N, S>)| {
+        let coefficients = |(_, far): (_, FarOf<C, N, S>)| {
             (far.curves.1.coefficient(gap), far.curves.2.resistance(gap).slip)
         };
         let both = self.seated(bridge).map(coefficients);

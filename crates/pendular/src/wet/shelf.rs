@@ -5,7 +5,9 @@ use pendular_capillary::ForceCurve;
 use pendular_dem_core::{Columns, EachColumn, Lane, Pairs, Resist};
 use pendular_lubrication::{NormalCurve, TangentialCurve};
 
-use super::act::{Pull, Pulls, Row};
+use super::act::{Pull, Pulls};
+use super::kinds::{Kind, Kinds};
+use crate::room::make_room;
 
 /// No bridge.
 const DRY: u32 = u32::MAX;
@@ -67,12 +69,28 @@ pub(super) struct Far<C, N, S> {
     pub(super) curves: (C, N, S),
 }
 
+/// The part of [`Far`] that each bridge has for itself.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Own<C, N> {
+    rupture: f64,
+    pub(super) capillary: C,
+    pub(super) normal: N,
+}
+
+/// What a bridge has for itself, as it lies on the shelf, and its kind.
+type WithKind<'a, T, S> = (&'a T, &'a Kind<S>);
+
+/// What acts in an open gap.
+pub(super) type Open<'a, C, N, S> = WithKind<'a, Own<C, N>, S>;
+
 /// The forces of all live bridges by their seats. In overlap only those at contact are looked at.
 pub(super) struct Shelf<C, N, S> {
-    contact: Vec<Row>,
-    /// The other part of `contact`: none unless a bridge has such.
-    turning: Vec<[f64; 2]>,
-    far: Vec<Far<C, N, S>>,
+    /// Tension (N) and drag along the line of centres (N s/m) at contact.
+    contact: Vec<[f64; 2]>,
+    own: Vec<Own<C, N>>,
+    /// The kind of each bridge.
+    kind: Vec<u32>,
+    kinds: Kinds<S>,
     free: Vec<u32>,
     /// Seats given out, taken or free.
     seats: u32,
@@ -80,8 +98,14 @@ pub(super) struct Shelf<C, N, S> {
 
 impl<C, N, S> Default for Shelf<C, N, S> {
     fn default() -> Self {
-        let (contact, turning, far, free) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { contact, turning, far, free, seats: 0 }
+        Self {
+            contact: Vec::new(),
+            own: Vec::new(),
+            kind: Vec::new(),
+            kinds: Kinds::default(),
+            free: Vec::new(),
+            seats: 0,
+        }
     }
 }
 
@@ -95,28 +119,28 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     }
 
     /// Puts there what acts in the bridge; new seats are taken in their order.
-    pub(super) fn put(&mut self, seat: u32, far: Far<C, N, S>) {
-        let contact = Pull::contact(&far.curves);
-        let turning = contact.map_or([0.0; 2], |pull| pull.turning());
-        let contact = contact.map_or(Row::UNKNOWN, |pull| pull.row());
+    pub(super) fn put(&mut self, seat: u32, Far { rupture, curves }: Far<C, N, S>) {
+        let contact = Pull::contact(&curves);
+        let (capillary, normal, tangential) = curves;
+        let kind = self.kinds.number(Kind::new(tangential, contact.as_ref()));
+        let contact = contact.map_or([0.0; 2], |pull| pull.own());
+        let own = Own { rupture, capillary, normal };
         let seat = seat as usize;
-        if seat < self.far.len() {
-            (self.contact[seat], self.far[seat]) = (contact, far);
+        if seat < self.own.len() {
+            (self.contact[seat], self.own[seat], self.kind[seat]) = (contact, own, kind);
         } else {
             self.contact.push(contact);
-            self.far.push(far);
-        }
-        if turning != [0.0; 2] || !self.turning.is_empty() {
-            self.turning.resize(self.far.len(), [0.0; 2]);
-            self.turning[seat] = turning;
+            self.own.push(own);
+            self.kind.push(kind);
         }
     }
 
     /// Makes room for so many more bridges.
     pub(super) fn reserve(&mut self, bridges: usize) {
         let more = bridges.saturating_sub(self.free.len());
-        self.contact.reserve(more);
-        self.far.reserve(more);
+        make_room(&mut self.contact, more);
+        make_room(&mut self.own, more);
+        make_room(&mut self.kind, more);
     }
 
     /// The seat is free again.
@@ -149,9 +173,9 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         let seats = L::each(|k| columns.column(k).seat as usize);
         let closed = gap.less_bits(L::splat(permit, 0.0));
         if closed == 0 {
-            let far = self.all_far::<L>(&seats)?;
-            let clearance = N::clearances(&L::each(|k| &far[k].curves.1), gap);
-            return Some(Pulls::apart(&far, gap).resist(clearance));
+            let open = self.all_open::<L>(&seats)?;
+            let clearance = N::clearances(&L::each(|k| &open[k].0.normal), gap);
+            return Some(Pulls::apart(&open, gap).resist(clearance));
         }
         let (pulls, fade) = self.at_contact(&seats, gap)?;
         let clearance = L::splat(permit, 1.0) / fade;
@@ -162,7 +186,7 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     #[inline]
     pub(super) fn resist_one(&self, hold: &Hold, gap: f64) -> Resist {
         let known = self.resist::<f64>(&mut &mut hold.clone(), gap);
-        let beyond = |far: &Far<C, N, S>| {
+        let beyond = |far: Far<C, N, S>| {
             Pulls::pack((), &[Pull::at(&far.curves, gap)]).resist(far.curves.1.clearance(gap))
         };
         known.or_else(|| self.held(hold).map(beyond)).unwrap_or_default()
@@ -178,13 +202,14 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         let (permit, gap) = (pairs.permit, pairs.geometry.gap);
         let seats = L::each(|k| columns.column(k).seat as usize);
         if pairs.apart {
-            let far = self.all_far::<L>(&seats)?;
-            let rupture = L::pack(permit, &far, |far| far.rupture);
-            let curves = L::each(|k| &far[k].curves.0);
+            let open = self.all_open::<L>(&seats)?;
+            let rupture = L::pack(permit, &open, |open| open.0.rupture);
+            let curves = L::each(|k| &open[k].0.capillary);
             return (!rupture.any_less(gap)).then(|| C::forces(&curves, gap));
         }
         let rows = self.all_contact::<L>(&seats)?;
-        let [tension, _, _, fade] = L::rows(permit, &rows, |row| row.0);
+        let tension = L::pack(permit, &rows, |(own, _)| own[0]);
+        let fade = L::pack(permit, &rows, |(_, kind)| kind.contact[1]);
         (!L::splat(permit, 0.0).any_less(gap * fade)).then_some(tension)
     }
 
@@ -199,59 +224,71 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         let permit = gap.permit();
         let rows = self.all_contact::<L>(seats)?;
         let zero = L::splat(permit, 0.0);
-        let [tension, drag, slip, fade] = L::rows(permit, &rows, |row| row.0);
+        let row = |&([tension, drag], kind): &WithKind<'_, [f64; 2], S>| {
+            [*tension, *drag, kind.contact[0], kind.contact[1]]
+        };
+        let [tension, drag, slip, fade] = L::rows(permit, &rows, row);
         let exponent = gap * fade;
         if zero.any_less(exponent) {
             return None;
         }
         let mut turning = [zero; 2];
-        if !self.turning.is_empty() {
-            let of = |k: usize| self.turning.get(seats[k]).copied().unwrap_or_default();
-            let each = L::each(of);
-            turning = [0, 1].map(|side: usize| L::pack(permit, &each, |one| one[side]));
+        if self.kinds.turn {
+            turning[0] = L::pack(permit, &rows, |(_, kind)| kind.turning[0]);
+            turning[1] = L::pack(permit, &rows, |(_, kind)| kind.turning[1]);
         }
         Some((Pulls::faded([tension, drag, slip], turning, exponent), fade))
     }
 
     #[inline(always)]
     fn apart<L: Lane>(&self, seats: &L::Each<usize>, gap: L) -> Option<Pulls<L>> {
-        let far = self.all_far::<L>(seats)?;
-        if L::pack(gap.permit(), &far, |far| far.rupture).any_less(gap) {
+        let open = self.all_open::<L>(seats)?;
+        if L::pack(gap.permit(), &open, |(own, _)| own.rupture).any_less(gap) {
             return None;
         }
-        Some(Pulls::apart(&far, gap))
+        Some(Pulls::apart(&open, gap))
     }
 
     #[inline(always)]
-    fn all_contact<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<&Row>> {
-        let first = self.contact.get(seats[0])?;
-        let mut rows = L::each(|_| first);
-        for k in 1..L::WIDTH {
-            rows[k] = self.contact.get(seats[k])?;
-        }
-        Some(rows)
+    fn all_contact<L: Lane>(
+        &self,
+        seats: &L::Each<usize>,
+    ) -> Option<L::Each<WithKind<'_, [f64; 2], S>>> {
+        self.with_kinds::<L, _>(&self.contact, seats)
     }
 
     #[inline(always)]
-    fn all_far<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<&Far<C, N, S>>> {
-        let first = self.far.get(seats[0])?;
-        let mut far = L::each(|_| first);
+    fn all_open<L: Lane>(&self, seats: &L::Each<usize>) -> Option<L::Each<Open<'_, C, N, S>>> {
+        self.with_kinds::<L, _>(&self.own, seats)
+    }
+
+    /// What a column has at some seats, with the kinds; `None` if any has no bridge.
+    #[inline(always)]
+    fn with_kinds<'a, L: Lane, T>(
+        &'a self,
+        column: &'a [T],
+        seats: &L::Each<usize>,
+    ) -> Option<L::Each<WithKind<'a, T, S>>> {
+        // As long as the column, so that a seat is checked once.
+        let kinds = self.kind.get(..column.len())?;
+        let at = |seat: usize| Some((column.get(seat)?, self.kinds.get(kinds[seat])?));
+        let first = at(seats[0])?;
+        let mut all = L::each(|_| first);
         for k in 1..L::WIDTH {
-            far[k] = self.far.get(seats[k])?;
+            all[k] = at(seats[k])?;
         }
-        Some(far)
+        Some(all)
     }
 
     /// The forces of one pair; `None` without a bridge or beyond its static rupture distance.
     pub(super) fn pull(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
-        let seat = hold.seat as usize;
         if gap < 0.0 {
-            let overlapping = self.overlapping(&[seat], gap);
+            let overlapping = self.overlapping(&[hold.seat as usize], gap);
             if overlapping.is_some() {
                 return overlapping;
             }
         }
-        let far = self.far.get(seat)?;
+        let far = self.held(hold)?;
         (gap <= far.rupture).then(|| Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
@@ -272,32 +309,35 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
 
     /// What is kept of a pair's bridge.
     #[inline]
-    pub(super) fn held(&self, hold: &Hold) -> Option<&Far<C, N, S>> {
-        self.far.get(hold.seat as usize)
+    pub(super) fn held(&self, hold: &Hold) -> Option<Far<C, N, S>> {
+        self.far(hold.seat)
     }
 
     /// What is kept at a seat.
-    pub(super) fn far(&self, seat: u32) -> Option<&Far<C, N, S>> {
-        self.far.get(seat as usize)
+    #[inline]
+    pub(super) fn far(&self, seat: u32) -> Option<Far<C, N, S>> {
+        let [(own, kind)] = self.all_open::<f64>(&[seat as usize])?;
+        let Own { rupture, capillary, normal } = *own;
+        Some(Far { rupture, curves: (capillary, normal, kind.tangential) })
     }
 
     /// The forces of one pair by the curves at whatever gap; `None` without a bridge.
     pub(super) fn beyond(&self, hold: &Hold, gap: f64) -> Option<Pulls<f64>> {
-        let far = self.far.get(hold.seat as usize)?;
+        let far = self.held(hold)?;
         Some(Pulls::pack((), &[Pull::at(&far.curves, gap)]))
     }
 
     /// Static rupture distance, m.
     pub(super) fn rupture(&self, hold: &Hold) -> Option<f64> {
-        self.far.get(hold.seat as usize).map(|far| far.rupture)
+        self.own.get(hold.seat as usize).map(|own| own.rupture)
     }
 
     /// Gives out all seats anew, in the order in which `each` goes through the pairs; returns the
     /// new seats by bridge.
     pub(super) fn arrange(&mut self, bridges: usize, each: &mut EachColumn<'_, Hold>) -> Vec<u32> {
         let mut seats = vec![DRY; bridges];
-        let mut order = Vec::with_capacity(self.far.len());
-        let mut taken = vec![false; self.far.len()];
+        let mut order = Vec::with_capacity(self.own.len());
+        let mut taken = vec![false; self.own.len()];
         each(&mut |hold| {
             let Some(seat) = seats.get_mut(hold.bridge as usize) else { return };
             // A pair may stand in two lists.
@@ -317,14 +357,13 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
                 old = order[old] as usize;
             }
             self.contact.swap(new, old);
-            self.far.swap(new, old);
-            if !self.turning.is_empty() {
-                self.turning.swap(new, old);
-            }
+            self.own.swap(new, old);
+            self.kind.swap(new, old);
         }
         self.contact.truncate(live);
-        self.turning.truncate(live);
-        self.far.truncate(live);
+        self.own.truncate(live);
+        self.kind.truncate(live);
+        self.kinds.keep(&mut self.kind);
         self.free.clear();
         self.seats = live as u32;
         seats

@@ -12,6 +12,7 @@ use pendular_transfer::formation;
 use super::Wet;
 use super::act::Pulls;
 use super::shelf::Hold;
+use crate::room::make_room;
 use crate::{Account, Move};
 
 impl<C, N, S> PairTerm for Wet<C, N, S>
@@ -196,7 +197,10 @@ where
     /// Folds the bridges that form.
     fn seat_new(&mut self, visits: &mut impl Visits<Hold>) -> Result<(), TermError> {
         let forming = (0..visits.count()).filter(|&k| visits.column(k).forms().is_some()).count();
-        self.live.resize(self.ledger.bridges(), None);
+        let accounts = self.ledger.bridges();
+        let more = accounts.saturating_sub(self.live.len());
+        make_room(&mut self.live, more);
+        self.live.resize(accounts, None);
         self.shelf.reserve(forming);
         for k in 0..visits.count() {
             let Some(bridge) = visits.column(k).forms() else { continue };
