@@ -55,7 +55,10 @@ pub(crate) struct WallPair<C> {
 pub(crate) enum List {
     Inside,
     Across,
-    Wall { memory: u32 },
+    /// No sphere touches tens of thousands of surfaces at once.
+    Wall {
+        memory: u16,
+    },
 }
 
 /// Where a pair that wants attention stands. There are many at once when a wet scene starts.

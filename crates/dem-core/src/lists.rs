@@ -53,11 +53,10 @@ impl<C: Copy + Default> PairList<C> {
         reach: f64,
         live: impl Fn(&C) -> bool,
     ) {
-        let (old, old_columns) =
-            (std::mem::take(&mut self.active), std::mem::take(&mut self.columns));
-        self.active.reserve(old.len() + old.len() / 16);
-        self.columns.reserve(old.len() + old.len() / 16);
-        let mut carried = old.into_iter().zip(old_columns).peekable();
+        let about = self.active.len() + self.active.len() / 16;
+        let (mut active, mut columns) = (Vec::with_capacity(about), Vec::with_capacity(about));
+        let old = self.active.iter().copied().zip(self.columns.iter().copied());
+        let mut carried = old.peekable();
         let mut next = carried.peek().map(|(entry, _)| key(*entry, range));
         for &entry in &self.outer {
             let mut column = None;
@@ -69,23 +68,34 @@ impl<C: Copy + Default> PairList<C> {
                     if earlier == entry {
                         column = Some(c);
                     } else if live(&c) {
-                        self.active.push(earlier);
-                        self.columns.push(c);
+                        active.push(earlier);
+                        columns.push(c);
                     }
                 }
             }
             if column.as_ref().is_some_and(&live) || within(places, entry, reach) {
-                self.active.push(entry);
-                self.columns.push(column.unwrap_or_default());
+                active.push(entry);
+                columns.push(column.unwrap_or_default());
             }
         }
         for (entry, c) in carried.filter(|(_, c)| live(c)) {
-            self.active.push(entry);
-            self.columns.push(c);
+            active.push(entry);
+            columns.push(c);
         }
-        // The first time there was nothing to go by, and they grew by doubling.
-        self.active.shrink_to(self.active.len() / 16 * 17 + 8);
-        self.columns.shrink_to(self.columns.len() / 16 * 17 + 8);
+        refill(&mut self.active, active);
+        refill(&mut self.columns, columns);
+    }
+}
+
+/// Puts the new items into the memory of the old ones where they fit: lists that always move leave
+/// holes between them.
+fn refill<T: Copy>(list: &mut Vec<T>, mut new: Vec<T>) {
+    if list.capacity() < new.len() {
+        new.shrink_to(new.len() + new.len() / 32);
+        *list = new;
+    } else {
+        list.clear();
+        list.extend_from_slice(&new);
     }
 }
 
@@ -98,8 +108,12 @@ pub(crate) fn find<C>(
     inside: &mut PairList<C>,
     across: &mut PairList<C>,
 ) {
-    inside.outer.clear();
-    across.outer.clear();
+    for list in [&mut *inside, &mut *across] {
+        // About as many as before.
+        let before = list.outer.len();
+        list.outer.clear();
+        list.outer.reserve_exact(before + before / 16);
+    }
     let (places, id) = (&particles.places, &particles.id);
     let mut near: Vec<u32> = Vec::with_capacity(64);
     for i in range.clone() {
@@ -120,9 +134,8 @@ pub(crate) fn find<C>(
             list.push(entry);
         }
     }
-    // Grown by doubling; after the first time they hardly change.
-    inside.outer.shrink_to(inside.outer.len() / 8 * 9);
-    across.outer.shrink_to(across.outer.len() / 8 * 9);
+    inside.outer.shrink_to_fit();
+    across.outer.shrink_to_fit();
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use crate::pass;
 use crate::view::View;
 use crate::{Boundary, PairTerm, Profile, SimulationError, wall_pass};
 
+mod built;
 mod deepest;
 mod implicit;
 mod leaving;

@@ -110,7 +110,7 @@ fn act<T: PairTerm, B: Boundary>(
     let slot = (wall.slot - chunk.range.start) as usize;
     add_wall(&mut chunk.sums[slot], &load, &pair);
     if T::IMPLICIT && !load.attention {
-        let place = (List::Wall { memory: k as u32 }, index);
+        let place = (List::Wall { memory: k as u16 }, index);
         chunk.links.meet(view, term, &pair, [wall.slot; 2], place, &mut memory.column);
     }
     if view.rolls() && touch.gap < 0.0 {
@@ -120,7 +120,7 @@ fn act<T: PairTerm, B: Boundary>(
         chunk.overlap = -touch.gap / pair.radii[0];
     }
     if load.attention {
-        chunk.notes.push(Note { list: List::Wall { memory: k as u32 }, index });
+        chunk.notes.push(Note { list: List::Wall { memory: k as u16 }, index });
     }
 }
 
@@ -240,4 +240,6 @@ pub(crate) fn find<T: PairTerm, B: Boundary>(
             }
         }
     }
+    chunk.walls.shrink_to_fit();
+    chunk.pool.shrink_to_fit();
 }

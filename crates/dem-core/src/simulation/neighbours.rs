@@ -2,8 +2,7 @@
 
 use std::time::Instant;
 
-use glam::DVec3;
-
+use super::built::Built;
 use super::skins::Skins;
 use super::{Settings, Simulation, each};
 use crate::chunk::{Chunk, Memories, WallPair};
@@ -31,7 +30,7 @@ pub(super) struct State {
     walls: f64,
     reach: f64,
     wall_reach: f64,
-    built_at: Vec<DVec3>,
+    built: Built,
     /// Pairs that were settled since the term last arranged what it keeps.
     pub(super) visited: usize,
 }
@@ -50,7 +49,7 @@ impl State {
             walls: f64::INFINITY,
             reach: 0.0,
             wall_reach: 0.0,
-            built_at: Vec::new(),
+            built: Built::default(),
             visited: 0,
         }
     }
@@ -58,7 +57,6 @@ impl State {
     /// All lists are void: the particles stand in a new order.
     pub(super) fn renew(&mut self, particles: &Particles, chunk_size: usize) {
         self.chunk_size = chunk_size;
-        self.built_at = vec![DVec3::ZERO; particles.len()];
         (self.outer, self.inner, self.walls) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
         self.visited = particles.len();
     }
@@ -122,12 +120,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         if !lists.outer.is_finite() {
             return false;
         }
-        let moved = || self.particles.places.iter().zip(&lists.built_at).map(|(p, x)| p.x - x);
-        let low = moved().fold(DVec3::INFINITY, DVec3::min);
-        let high = moved().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let centre = 0.5 * (low + high);
-        let most = moved().fold(0.0_f64, |most, d| most.max((d - centre).length_squared()));
-        let bound = 2.0 * most.sqrt();
+        let bound = 2.0 * lists.built.most_moved(&self.particles.places);
         let good = bound + grown < 0.75 * lists.skins.outer;
         if good {
             lists.outer = bound;
@@ -146,7 +139,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             lists::find(particles, &grids, &chunk.range, range, inside, across);
         });
         let lists = &mut self.lists;
-        lists.built_at.iter_mut().zip(&particles.places).for_each(|(at, place)| *at = place.x);
+        lists.built.note(&particles.places);
         (lists.outer, lists.reach) = (0.0, reach);
         self.profile.builds += 1;
     }
@@ -188,7 +181,14 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// chunks and carries every live column over.
     pub(super) fn sort(&mut self, leaving: &[u32]) {
         let start = Instant::now();
-        let carried = Carried::collect(self, leaving);
+        let mut carried = Carried::default();
+        // One after the other, so that nothing is there twice.
+        for chunk in std::mem::take(&mut self.chunks) {
+            carried.add(&chunk, &self.particles, &self.term, leaving);
+            self.lists.overlap = self.lists.overlap.max(chunk.overlap);
+            self.profile.pairs += chunk.pair_time;
+            self.profile.walls += chunk.wall_time;
+        }
         let slots: Vec<u32> = if leaving.is_empty() {
             crate::order::morton(&self.particles)
         } else {
@@ -207,11 +207,6 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     pub(super) fn cut(&mut self, carried: Carried<T::Column>) {
         let size = chunk_size(self.particles.len());
         self.lists.renew(&self.particles, size);
-        for chunk in &self.chunks {
-            self.lists.overlap = self.lists.overlap.max(chunk.overlap);
-            self.profile.pairs += chunk.pair_time;
-            self.profile.walls += chunk.wall_time;
-        }
         let n = self.particles.len() as u32;
         let rolls = !self.rolls.is_empty();
         self.chunks = (0..n)
@@ -224,39 +219,46 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
 
 /// All live columns, by the ids of their bodies, while the particles change their order.
 pub(super) struct Carried<C> {
-    pub(super) pairs: Vec<([u32; 2], C)>,
+    /// In several parts: each is given back as soon as its columns have found their places.
+    pub(super) pairs: Vec<Vec<([u32; 2], C)>>,
     pub(super) walls: Vec<CarriedWall<C>>,
 }
 
 /// A wall pair on its way: the particle's id, the part, memories, candidates.
 pub(super) type CarriedWall<C> = (u32, u32, Memories<C>, Vec<u32>);
 
+impl<C> Default for Carried<C> {
+    fn default() -> Self {
+        Self { pairs: Vec::new(), walls: Vec::new() }
+    }
+}
+
 impl<C: Copy + Default + Send + Sync> Carried<C> {
-    pub(super) fn collect<T: PairTerm<Column = C>, B>(
-        simulation: &Simulation<T, B>,
+    /// Adds the live columns of a chunk, but for those of particles that leave.
+    pub(super) fn add(
+        &mut self,
+        chunk: &Chunk<C>,
+        particles: &Particles,
+        term: &impl PairTerm<Column = C>,
         leaving: &[u32],
-    ) -> Self {
-        let (id, term) = (&simulation.particles.id, &simulation.term);
+    ) {
+        let id = &particles.id;
         let stays = |slot: u32| leaving.binary_search(&slot).is_err();
-        let (mut pairs, mut walls) = (Vec::new(), Vec::new());
-        for chunk in &simulation.chunks {
-            let (inside, across) = (&chunk.inside, &chunk.across);
-            let inside = inside.active.iter().zip(&inside.columns);
-            let across = across.active.iter().zip(&across.columns);
-            let ours = across.filter(|(entry, _)| chunk.range.contains(&entry[0]));
-            for (entry, column) in inside.chain(ours) {
-                if term.live(column) && entry.iter().all(|&slot| stays(slot)) {
-                    pairs.push((entry.map(|slot| id[slot as usize]), *column));
-                }
-            }
-            let pool = &chunk.pool;
-            for wall in chunk.walls.iter().filter(|wall| stays(wall.slot)) {
-                let candidates = pool[wall.candidates.clone()].to_vec();
-                let memories = wall.memories.clone();
-                walls.push((id[wall.slot as usize], wall.part, memories, candidates));
-            }
+        let (inside, across) = (&chunk.inside, &chunk.across);
+        let inside = inside.active.iter().zip(&inside.columns);
+        let across = across.active.iter().zip(&across.columns);
+        let ours = across.filter(|(entry, _)| chunk.range.contains(&entry[0]));
+        let live = inside
+            .chain(ours)
+            .filter(|(entry, column)| term.live(column) && entry.iter().all(|&slot| stays(slot)));
+        let named =
+            |(entry, column): (&[u32; 2], &C)| (entry.map(|slot| id[slot as usize]), *column);
+        self.pairs.push(live.map(named).collect());
+        for wall in chunk.walls.iter().filter(|wall| stays(wall.slot)) {
+            let candidates = chunk.pool[wall.candidates.clone()].to_vec();
+            let memories = wall.memories.clone();
+            self.walls.push((id[wall.slot as usize], wall.part, memories, candidates));
         }
-        Self { pairs, walls }
     }
 
     /// Puts the columns into the lists of the new chunks; the lists' order is restored.
@@ -268,7 +270,7 @@ impl<C: Copy + Default + Send + Sync> Carried<C> {
         }
         let mut inside: Vec<Vec<_>> = simulation.chunks.iter().map(|_| Vec::new()).collect();
         let mut across = inside.clone();
-        for (ids, column) in self.pairs {
+        for (ids, column) in self.pairs.into_iter().flatten() {
             let entry = ids.map(|id| slot_of[id as usize]);
             let [a, b] = entry.map(|slot| (slot / size) as usize);
             if a == b {

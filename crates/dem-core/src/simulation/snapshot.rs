@@ -66,19 +66,23 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// What the simulation has become.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot<T::Column> {
-        let Carried { pairs, walls } = Carried::collect(self, &[]);
-        let walls = walls.into_iter().map(|(particle, part, memories, elements)| WallMemory {
-            particle,
-            part,
-            touches: memories.into_iter().map(|m| (m.touch, m.column)).collect(),
-            elements,
-        });
+        let mut carried = Carried::default();
+        for chunk in &self.chunks {
+            carried.add(chunk, &self.particles, &self.term, &[]);
+        }
+        let walls =
+            carried.walls.into_iter().map(|(particle, part, memories, elements)| WallMemory {
+                particle,
+                part,
+                touches: memories.into_iter().map(|m| (m.touch, m.column)).collect(),
+                elements,
+            });
         Snapshot {
             step: self.step,
             created: self.particles.created,
             particles: self.particles.iter().collect(),
             rolls: self.rolls.iter().map(|roll| (roll.spin, roll.contacts)).collect(),
-            pairs,
+            pairs: carried.pairs.into_iter().flatten().collect(),
             walls: walls.collect(),
             overlap: self.largest_overlap(),
         }
@@ -119,7 +123,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let memories = wall.touches.into_iter().map(memory).collect();
             (wall.particle, wall.part, memories, wall.elements)
         });
-        let carried = Carried { pairs, walls: walls.collect() };
+        let carried = Carried { pairs: vec![pairs], walls: walls.collect() };
         simulation.step = step;
         simulation.lists.overlap = overlap;
         let (time, h) = (simulation.time(), simulation.settings.time_step);
