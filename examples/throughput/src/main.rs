@@ -127,7 +127,7 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
     };
     println!(
-        "pendular {} {} {} {} {:.3} {:.4e} {:.0}",
+        "pendular {} {} {} {} {:.3} {:.4e} {:.1}",
         cli.scene.name(),
         cli.threads,
         result.particles,
