@@ -295,16 +295,17 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
     /// The drag's impulse from contact to a gap, N s, and the drag there, N s/m. In overlap the
     /// drag fades, where it does, by that at contact.
     pub(super) fn charge(&self, hold: &Hold, gap: f64) -> [f64; 2] {
-        let seat = hold.seat as usize;
+        let seat = [hold.seat as usize];
         if gap < 0.0
-            && let Some(&Row([_, drag, _, fade])) = self.contact.get(seat)
-            && fade > 0.0
-            && fade < f64::INFINITY
+            && let Some([([_, drag], kind)]) = self.all_contact::<f64>(&seat)
+            && kind.contact[1] > 0.0
+            && kind.contact[1] < f64::INFINITY
         {
+            let fade = kind.contact[1];
             let less = (gap * fade).exp_m1();
             return [drag / fade * less, drag * (1.0 + less)];
         }
-        self.far.get(seat).map_or([0.0; 2], |far| far.curves.1.charge(gap))
+        self.all_open::<f64>(&seat).map_or([0.0; 2], |[(own, _)]| own.normal.charge(gap))
     }
 
     /// What is kept of a pair's bridge.
