@@ -2,7 +2,7 @@
 //!
 //! A capillary law is the cheapest one whose error against the exact bridge stays within
 //! [`FORCE_TOLERANCE`] over the scene's bridges. A drag or dynamic rupture is kept unless a pilot
-//! run shows that it does less than [`LEAST_SHARE`] of the impulse.
+//! run with enough bridges shows that it does less than [`LEAST_SHARE`] of the impulse.
 
 use pendular::Acting;
 use pendular::capillary::AnyCapillary;
@@ -10,6 +10,7 @@ use pendular::capillary::advise::{self, Advice, AdviseError, BridgeRange};
 
 use crate::build::{Built, Source, build};
 use crate::error::RunError;
+use crate::evidence;
 use crate::limits::bridge_volume;
 use crate::pilot;
 use crate::scene::{DynamicRupture, LiquidSpec, Scene};
@@ -61,11 +62,18 @@ pub(crate) fn decide(scene: &Scene, source: &Source<'_>) -> Result<Vec<Decision>
     let drags = ["normal_drag", "tangential_drag", "tangential_drag_wall"];
     let pilot =
         if drags.iter().any(|key| open(key)) || liquid.dynamic_rupture == DynamicRupture::Auto {
-            Some(pilot::fly(&full, source)?.outcome.budget)
+            Some(pilot::fly(&full, source)?.outcome)
         } else {
             None
         };
-    let small = |acting| pilot.is_some_and(|budget| budget.of_impulse(acting) < LEAST_SHARE);
+    let small = |acting| {
+        pilot.as_ref().is_some_and(|outcome| {
+            let counts = &outcome.tally.counts;
+            let seen =
+                if acting == Acting::DynamicRupture { counts.ruptured } else { counts.formed };
+            seen >= evidence::LEAST && outcome.budget.of_impulse(acting) < LEAST_SHARE
+        })
+    };
     let mut decisions = defaults(liquid);
     for (key, value) in &mut decisions {
         let acting = match key.as_str() {

@@ -4,7 +4,7 @@ use crate::pilot::Pilot;
 use crate::scene::Scene;
 
 /// Fewer events say little: their number alone is then uncertain by more than a fifth (1/√20).
-const LEAST: u64 = 20;
+pub(crate) const LEAST: u64 = 20;
 
 /// What a pilot of a scene has seen too little of; nothing where it is enough.
 pub(crate) fn lacking(scene: &Scene, pilot: &Pilot) -> Option<String> {
