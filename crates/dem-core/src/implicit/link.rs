@@ -21,7 +21,7 @@ pub(crate) struct Link<L> {
     pub(super) to: L,
     pub(super) step: L,
     /// The fastest that the bodies may move along their line of centres for the pair to be linear:
-    /// either way, and apart.
+    /// either way, and apart, to which the turning of that line adds.
     pub(super) room: L,
     pub(super) apart: L,
 }
@@ -146,7 +146,7 @@ impl<L: Lane> New<L> {
             to: gap + step * turn,
             step,
             room,
-            apart: room.least(cap),
+            apart: room.least(cap) - turn,
         };
         let path = Path {
             charged,
@@ -304,12 +304,14 @@ impl Course {
         let near = NEAR / LINEAR * self.room;
         let change = self.along.change(speed, push);
         let guess = speed + change * mobility;
-        if self.path.paid.is_nan() {
+        let first = self.path.paid.is_nan();
+        if first {
             self.path.paid = charge(self.path.charged)[0];
-        } else if (guess - self.path.found).abs() <= near {
-            return change;
         }
         let along = Along { to, step, duration, path: self.path, mobility, near };
+        if !first && along.has_tangent(guess) {
+            return change;
+        }
         let Fit { speed: found, slope } = along.search(speed - push * mobility, guess, charge);
         let change = (found - speed) / mobility;
         let offset = -(push + change) - slope * found;
@@ -325,28 +327,47 @@ mod tests {
     use crate::implicit::{Impulse, Remembered, Resist};
     use crate::pairs::Geometry;
 
-    #[test]
-    fn a_free_pair_decays_like_the_exponential() {
-        let (drag, h, mass) = (0.15, 1e-3, 2e-4);
+    const MASS: f64 = 2e-4;
+
+    /// A body that moves along x, and across it, before a wall that does not keep it from turning.
+    fn pair(separation_speed: f64, sideways: f64, resist: &Resist, h: f64) -> New<f64> {
         let mut geometry = Geometry::<f64>::none(());
         geometry.normal.x = 1.0;
-        geometry.separation_speed = 0.7;
+        geometry.separation_speed = separation_speed;
         geometry.levers = [1.0, 0.0];
         let met = Met::<f64> {
             slots: [[0, 0]],
             index: [0],
             geometry: &geometry,
-            sideways: 0.0,
-            resist: &Resist { drag, clearance: f64::INFINITY, ..Resist::default() },
+            sideways,
+            resist,
             remembered: &Remembered::pack((), |_| Impulse::NONE),
         };
-        let inverse = Inverse { classes: &[[1.0 / mass, 0.0]], class: &[0] };
-        let New { link, path, searched, rolls } = New::of((), &met, inverse, [h, h]);
+        let inverse = Inverse { classes: &[[1.0 / MASS, 0.0]], class: &[0] };
+        New::of((), &met, inverse, [h, h])
+    }
+
+    #[test]
+    fn a_free_pair_decays_like_the_exponential() {
+        let (drag, h) = (0.15, 1e-3);
+        let resist = Resist { drag, clearance: f64::INFINITY, ..Resist::default() };
+        let New { link, path, searched, rolls } = pair(0.7, 0.0, &resist, h);
         assert_eq!([searched, rolls], [0; 2]);
         let p = link.push + link.along.change(0.7, link.push);
-        let left = 0.7 + p / mass;
-        assert!((left / (0.7 * (-drag * h / mass).exp()) - 1.0).abs() < 1e-13);
+        let left = 0.7 + p / MASS;
+        assert!((left / (0.7 * (-drag * h / MASS).exp()) - 1.0).abs() < 1e-13);
         let found = link.course(&path).search(0.7, h, &|gap| [drag * gap, drag]);
         assert!((found / p - 1.0).abs() < 1e-12);
+    }
+
+    /// What counts is how fast the gap opens, to which the turning of the line of centres adds.
+    #[test]
+    fn a_pair_is_searched_for_where_turning_opens_its_gap_far() {
+        let (h, clearance) = (1e-3, 1e-6);
+        let resist = Resist { drag: 0.15, clearance, ..Resist::default() };
+        // The gap opens by v² h²/2 where levers of 1 m turn.
+        let opens = |gap: f64| pair(0.0, 2.0 * gap / (h * h), &resist, h);
+        assert_eq!(opens(0.9 * LINEAR * clearance).searched, 0);
+        assert_eq!(opens(1.1 * LINEAR * clearance).searched, 1);
     }
 }

@@ -126,7 +126,7 @@ impl Along {
         for _ in 0..TRIES {
             let [f, slope] = self.lack(own, a, charge);
             let next = a - f / (slope + 1.0 / self.mobility);
-            if (next - a).abs() <= self.near && self.is_capped(a) == self.is_capped(next) {
+            if self.are_alike(a, next) {
                 return Fit { speed: next, slope };
             }
             a = next;
@@ -172,6 +172,17 @@ impl Along {
     /// The dashpot's pull without a bound, N.
     fn pull_at(&self, a: f64) -> f64 {
         self.path.dashpot * (self.path.before + self.step / self.duration * a)
+    }
+
+    /// Whether the tangent where the pair was last searched for serves at a speed too. A pair whose
+    /// speeds are all near to each other has no drag to tell how far its tangents reach.
+    pub(super) fn has_tangent(&self, a: f64) -> bool {
+        self.near < f64::INFINITY && self.are_alike(self.path.found, a)
+    }
+
+    /// Whether two speeds are so near that one tangent serves both.
+    fn are_alike(&self, a: f64, b: f64) -> bool {
+        (a - b).abs() <= self.near && self.is_capped(a) == self.is_capped(b)
     }
 
     fn is_capped(&self, a: f64) -> bool {

@@ -172,3 +172,86 @@ fn an_optional_implicit_term_is_implicit() {
     assert!(speed(plain.particles()) < 0.9e-2, "{}", speed(plain.particles()));
     assert_eq!(speed(plain.particles()), speed(optional.particles()));
 }
+
+/// Three spheres in a row: a dashpot that pulls with `PULL` at most between the first two, a drag
+/// between the last two, or the other way round.
+struct Row {
+    mirrored: bool,
+}
+
+const DASHPOT: f64 = 5.0;
+const PULL: f64 = 0.01;
+
+impl PairTerm for Row {
+    /// Whether it is the drag that acts.
+    type Column = bool;
+
+    fn reach(&self) -> f64 {
+        1e-4
+    }
+
+    fn idle(&self, encounter: &Encounter, drags: &mut bool) -> bool {
+        *drags = (encounter.first == 1) != self.mirrored;
+        encounter.gap > self.reach()
+    }
+
+    fn load(&self, _: &Pair, _: &mut bool) -> Load {
+        Load::default()
+    }
+
+    fn live(&self, _: &bool) -> bool {
+        false
+    }
+
+    fn resist(&self, _: &Pair, drags: &bool, _: f64) -> Resist {
+        if *drags {
+            Resist { drag: DASHPOT, clearance: f64::INFINITY, ..Resist::default() }
+        } else {
+            Resist { dashpot: DASHPOT, pull: PULL, ..Resist::default() }
+        }
+    }
+
+    fn charge(&self, drags: &bool, gap: f64) -> [f64; 2] {
+        if *drags { [DASHPOT * gap, DASHPOT] } else { [0.0; 2] }
+    }
+
+    fn stability(&self, classes: &[Class]) -> Vec<StabilityLoad> {
+        vec![StabilityLoad::default(); classes.len()]
+    }
+}
+
+/// Two spheres part at first, at a speed for which their dashpot pulls more than half of what it may.
+/// Then a third one takes one of them along, towards the other or away from it: the dashpot pushes as
+/// it should, or pulls no more than it may. Whichever of the pairs is looked at first.
+#[test]
+fn a_dashpot_is_capped_by_the_speed_that_is_found_and_not_by_the_first_guess() {
+    let h = 1e-5;
+    let parting = PULL / DASHPOT;
+    for (parting, third) in [(10.0 * parting, -1.0), (0.8 * parting, 1.0)] {
+        for mirrored in [false, true] {
+            let sphere = Class::new(R, 2500.0, 0).unwrap();
+            let mass = sphere.mass();
+            let mut particles = Particles::new(vec![sphere]).unwrap();
+            let mut speeds = [0.0, parting, third];
+            if mirrored {
+                speeds = [-third, -parting, 0.0];
+            }
+            for (k, speed) in speeds.into_iter().enumerate() {
+                let x = k as f64 * 2.0 * R * DVec3::X;
+                particles.push(0, x, speed * DVec3::X, DVec3::ZERO).unwrap();
+            }
+            let settings = Settings { gravity: DVec3::ZERO, ..Settings::new(h) };
+            let term = Implicit::new(Row { mirrored });
+            let mut scene = Simulation::new(particles, term, NoWalls, settings).unwrap();
+            scene.advance(1).unwrap();
+            let speed = |id: u32| scene.particles().get(id).unwrap().velocity.x;
+            let (a, b) = if mirrored { (-speed(2), -speed(1)) } else { (speed(0), speed(1)) };
+            // The first kick is half a step; so stiff a dashpot looks at the speed after it alone.
+            let unbounded = DASHPOT * (b - a);
+            let pull = unbounded.min(PULL);
+            assert_eq!(unbounded > PULL, third > 0.0, "{a} {b}");
+            // Impulses are found to 1e-3 and speeds to some g = h c/m* = 5 times that, twice over.
+            assert!((mass * a / (0.5 * h * pull) - 1.0).abs() < 2e-2, "{a} {b} {pull}");
+        }
+    }
+}
