@@ -153,6 +153,12 @@ impl Eight {
         }
     }
 
+    /// Those that are there: their slots, where their columns stand, and they themselves.
+    pub(super) fn links(&self) -> impl Iterator<Item = ([u32; 2], u32, Link<f64>)> {
+        let there = (0..EIGHT).filter(|k| self.which >> k & 1 == 1);
+        there.map(|k| (self.slots[k], self.index[k], self.load::<f64>((), k)))
+    }
+
     /// What those that are there are to remember, charged up to these gaps.
     fn remember(&self, charged: &[f64; EIGHT], memory: &mut dyn Memory) {
         for k in (0..EIGHT).filter(|k| self.which >> k & 1 == 1) {
@@ -233,6 +239,7 @@ impl Links {
         }
         eight.which |= here << at;
         eight.searched |= (searched & here) << at;
+        self.stiff |= link.is_stiff() & here != 0;
         let mut sums = link.start();
         let [push, a, b] = link.momentum();
         let (push, turns) = (push.rows(permit), [a.rows(permit), b.rows(permit)]);

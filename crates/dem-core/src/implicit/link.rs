@@ -26,6 +26,9 @@ pub(crate) struct Link<L> {
     pub(super) apart: L,
 }
 
+/// From this θ g on a pair is stiff.
+const STIFF: f64 = 30.0;
+
 /// What only a pair needs that is not linear.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Path<L> {
@@ -188,6 +191,14 @@ impl<L: Lane> Link<L> {
     #[inline(always)]
     pub(super) fn is_fast(&self, speed: L) -> u32 {
         self.apart.less_bits(speed) | self.room.less_bits(-speed)
+    }
+
+    /// Which pairs are so stiff that what is left over of their impulses is not to be made up for, one
+    /// bit each.
+    #[inline(always)]
+    pub(super) fn is_stiff(&self) -> u32 {
+        let [[mi, _], [mj, _]] = self.inverse;
+        L::splat(self.push.permit(), STIFF).less_bits(self.along.slope * (mi + mj))
     }
 
     /// The two sums over pairs that scale a start, as far as no velocity after the kick goes into

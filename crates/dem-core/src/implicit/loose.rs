@@ -20,13 +20,13 @@ const NOTHING_MORE: u32 = u32::MAX;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Loose {
     pub(crate) slots: [u32; 2],
-    list: List,
-    index: u32,
+    pub(super) list: List,
+    pub(super) index: u32,
     /// Where there is more to it, or [`NOTHING_MORE`].
     more: u32,
     /// Whether the impulse along the normal has to be searched for.
     searched: bool,
-    link: Link<f64>,
+    pub(super) link: Link<f64>,
     path: Path<f64>,
 }
 
@@ -120,6 +120,7 @@ impl Links {
             self.more.push(More::new(met, impulse, &link, times[0]));
         }
         let searched = searched != 0;
+        self.stiff |= link.is_stiff() != 0;
         self.loose.push(Loose { slots, list, index, more, searched, link, path });
     }
 
@@ -136,7 +137,7 @@ impl Links {
 
     /// The wall's velocity, or none.
     #[inline(always)]
-    fn wall(&self, k: usize) -> DVec3 {
+    pub(super) fn wall(&self, k: usize) -> DVec3 {
         self.more.get(self.loose[k].more as usize).map_or(DVec3::ZERO, |more| more.wall)
     }
 
@@ -316,7 +317,7 @@ fn vector(v: DVec3) -> Vector<f64> {
 
 /// The two bodies of a link, a wall in the place of the second where both slots are the same.
 #[inline(always)]
-fn take(velocities: &[Velocity], [a, b]: [u32; 2], first: u32, wall: DVec3) -> Two<f64> {
+pub(super) fn take(velocities: &[Velocity], [a, b]: [u32; 2], first: u32, wall: DVec3) -> Two<f64> {
     let body = |slot: u32| {
         let velocity = &velocities[(slot - first) as usize];
         Body { v: vector(velocity.v.vector()), w: vector(velocity.w.vector()) }

@@ -1,5 +1,6 @@
 //! Resistances that are solved for at the end of the step instead of being taken from its start.
 
+mod close;
 mod colours;
 mod eight;
 mod link;
@@ -172,6 +173,8 @@ pub(crate) struct Links {
     more: Vec<More>,
     /// The sums that scale a start, of the links that lie side by side, lane by lane.
     start: [[f64; EIGHT]; 2],
+    /// Whether there are stiff ones among them.
+    stiff: bool,
 }
 
 impl Links {
@@ -180,6 +183,7 @@ impl Links {
         self.loose.clear();
         self.more.clear();
         self.start = [[0.0; EIGHT]; 2];
+        self.stiff = false;
     }
 
     pub(crate) fn is_empty(&self) -> bool {

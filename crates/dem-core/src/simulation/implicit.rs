@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::{Simulation, parallel};
+use super::{Simulation, each, parallel};
 use crate::chunk::{Chunk, List, Note, Sum, WallPair};
 use crate::implicit::{Change, Impulse, Inverse, Memory, Passes, Visit};
 use crate::integrate::{Moved, drift};
@@ -105,6 +105,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
     fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
+        let mut settled = false;
         for round in 1..=MOST_ROUNDS {
             self.passes.passes += 2;
             let first = round == 1;
@@ -119,12 +120,34 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let inside =
                 self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
             let change = inside + across;
-            let settled = change.changed <= SETTLED * change.all;
+            settled = change.changed <= SETTLED * change.all;
             if settled {
                 break;
             }
-            self.passes.at_most += u64::from(round == MOST_ROUNDS);
         }
+        self.passes.at_most += u64::from(!settled);
+        let stiff = |c: &Chunk<T::Column>| c.links.has_stiff() || c.links_across.has_stiff();
+        if !settled || self.chunks.iter().any(stiff) {
+            self.close(!settled);
+        }
+    }
+
+    /// As [`crate::implicit::Links::close`] for all pairs.
+    fn close(&mut self, all: bool) {
+        self.inside(|solving, chunk, velocities| {
+            let Chunk { links, inside, walls, range, .. } = chunk;
+            let memory =
+                &mut Remembering { term: solving.term, columns: &mut inside.columns, walls };
+            links.close(velocities, range.start, all, memory);
+            Change::default()
+        });
+        let Self { chunks, particles, term, settings, .. } = self;
+        let (term, velocities) = (&*term, &particles.velocities[..]);
+        each(chunks, settings.threads, |chunk| {
+            let Chunk { links_across, across, .. } = chunk;
+            let memory = &mut Remembering { term, columns: &mut across.columns, walls: &mut [] };
+            links_across.close(velocities, 0, all, memory);
+        });
     }
 
     /// Does something with every chunk and its velocities.

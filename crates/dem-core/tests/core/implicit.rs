@@ -255,3 +255,31 @@ fn a_dashpot_is_capped_by_the_speed_that_is_found_and_not_by_the_first_guess() {
         }
     }
 }
+
+/// So stiff a drag that the passes stop early, and that the thousandth of an impulse which they may
+/// leave over moves bodies faster than they would move otherwise: the next step is not to throw it
+/// back.
+#[test]
+fn what_the_passes_leave_over_drives_nothing() {
+    for coefficient in [1e3, 1e6] {
+        let mut particles = Particles::new(vec![Class::new(R, 2500.0, 0).unwrap()]).unwrap();
+        for k in 0..1000_u32 {
+            let at = DVec3::new(f64::from(k % 10), f64::from(k / 10 % 10), f64::from(k / 100));
+            let v = 0.01 * DVec3::new((at.y - at.z).sin(), (2.0 * at.z).sin(), (3.0 * at.x).sin());
+            particles.push(0, (2.0 * R + 2e-5) * at, v, DVec3::ZERO).unwrap();
+        }
+        let drag = Drag { coefficient, reach: 1e-4, asks: false };
+        let mut scene = scene(particles, drag, 0.0);
+        let mut energy = scene.particles().kinetic_energy();
+        let mut most = 0.0_f64;
+        for _ in 0..100 {
+            scene.advance(1).unwrap();
+            let now = scene.particles().kinetic_energy();
+            most = most.max(now / energy - 1.0);
+            energy = now;
+        }
+        println!("{coefficient:e} N s/m: {most:e} {energy:e} {:?}", scene.passes());
+        assert!(scene.passes().at_most > 0, "{:?}", scene.passes());
+        assert!(most < 1e-9, "{most:e}");
+    }
+}
