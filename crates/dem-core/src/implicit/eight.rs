@@ -3,8 +3,9 @@
 
 use glam::Vec3;
 
-use super::link::{Body, Change, Course, Link, New, Path, Two, add_momentum};
+use super::link::{Body, Change, Course, Link, New, Two, add_momentum};
 use super::normal::Normal;
+use super::paths::Paths;
 use super::shear::Slip;
 use super::{Inverse, Links, Memory, Met};
 use crate::chunk::{List, Sum};
@@ -19,26 +20,19 @@ const PUSH: usize = 9;
 const SHEAR: usize = 13;
 /// Numbers of a [`Link`].
 const NUMBERS: usize = 25;
-/// Numbers of a [`Path`].
-const PATH: usize = 6;
 
 /// Eight links.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Eight {
     numbers: [[f64; EIGHT]; NUMBERS],
-    slots: [[u32; 2]; EIGHT],
+    pub(super) slots: [[u32; 2]; EIGHT],
     pub(super) index: [u32; EIGHT],
     /// Which of them are there, one bit each.
     pub(super) which: u32,
     /// Which have to be searched for.
     searched: u32,
 }
-
-/// The paths of eight links.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-pub(super) struct Paths([[f64; EIGHT]; PATH]);
 
 impl Eight {
     const NONE: Self = Self {
@@ -51,7 +45,7 @@ impl Eight {
 
     /// Reads the links from lane `at` on.
     #[inline(always)]
-    fn load<L: Lane>(&self, permit: L::Permit, at: usize) -> Link<L> {
+    pub(super) fn load<L: Lane>(&self, permit: L::Permit, at: usize) -> Link<L> {
         Link {
             normal: self.vector(permit, at, 0),
             levers: [self.number(permit, at, 3), self.number(permit, at, 4)],
@@ -153,12 +147,6 @@ impl Eight {
         }
     }
 
-    /// Those that are there: their slots, where their columns stand, and they themselves.
-    pub(super) fn links(&self) -> impl Iterator<Item = ([u32; 2], u32, Link<f64>)> {
-        let there = (0..EIGHT).filter(|k| self.which >> k & 1 == 1);
-        there.map(|k| (self.slots[k], self.index[k], self.load::<f64>((), k)))
-    }
-
     /// What those that are there are to remember, charged up to these gaps.
     fn remember(&self, charged: &[f64; EIGHT], memory: &mut dyn Memory) {
         for k in (0..EIGHT).filter(|k| self.which >> k & 1 == 1) {
@@ -174,31 +162,13 @@ impl Eight {
     }
 }
 
-impl Paths {
-    const NONE: Self = Self([[0.0; EIGHT]; PATH]);
-
-    #[inline(always)]
-    fn store<L: Lane>(&mut self, at: usize, path: &Path<L>) {
-        let Path { charged, paid, found, before, dashpot, pull } = *path;
-        let numbers = [charged, paid, found, before, dashpot, pull];
-        for (all, number) in self.0.iter_mut().zip(numbers) {
-            set(all, at, number);
-        }
-    }
-
-    fn one(&self, k: usize) -> Path<f64> {
-        let [charged, paid, found, before, dashpot, pull] = self.0.each_ref().map(|all| all[k]);
-        Path { charged, paid, found, before, dashpot, pull }
-    }
-}
-
 #[inline(always)]
-fn number<L: Lane>(permit: L::Permit, all: &[f64; EIGHT], at: usize) -> L {
+pub(super) fn number<L: Lane>(permit: L::Permit, all: &[f64; EIGHT], at: usize) -> L {
     L::pack(permit, &L::each(|k| all[at + k]), |one| *one)
 }
 
 #[inline(always)]
-fn set<L: Lane>(all: &mut [f64; EIGHT], at: usize, value: L) {
+pub(super) fn set<L: Lane>(all: &mut [f64; EIGHT], at: usize, value: L) {
     let value = value.unpack();
     for k in 0..L::WIDTH {
         all[at + k] = value[k];
@@ -377,7 +347,7 @@ fn add_up<L: Lane>(permit: L::Permit, sums: &mut [[f64; EIGHT]; 2], at: usize, o
 
 /// The bodies of the links from lane `at` on.
 #[inline(always)]
-fn take<L: Lane>(
+pub(super) fn take<L: Lane>(
     permit: L::Permit,
     velocities: &[Velocity],
     slots: &[[u32; 2]; EIGHT],

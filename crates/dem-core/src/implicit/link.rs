@@ -1,6 +1,6 @@
 //! What is solved for in one pair whose motion is resisted, or in several side by side.
 
-use super::normal::{Along, Fit, LINEAR, NEAR, Normal, softness, weight};
+use super::normal::{Along, Fit, LINEAR, NEAR, Normal, STIFF, softness, weight};
 use super::shear::Slip;
 use super::{Inverse, Met};
 use crate::chunk::Sum;
@@ -25,9 +25,6 @@ pub(crate) struct Link<L> {
     pub(super) room: L,
     pub(super) apart: L,
 }
-
-/// From this θ g on a pair is stiff.
-const STIFF: f64 = 30.0;
 
 /// What only a pair needs that is not linear.
 #[derive(Debug, Clone, Copy)]
@@ -193,8 +190,7 @@ impl<L: Lane> Link<L> {
         self.apart.less_bits(speed) | self.room.less_bits(-speed)
     }
 
-    /// Which pairs are so stiff that what is left over of their impulses is not to be made up for, one
-    /// bit each.
+    /// Which pairs are so stiff that they are backward Euler's, one bit each.
     #[inline(always)]
     pub(super) fn is_stiff(&self) -> u32 {
         let [[mi, _], [mj, _]] = self.inverse;

@@ -7,6 +7,7 @@ mod link;
 mod loose;
 mod met;
 mod normal;
+mod paths;
 mod shear;
 mod term;
 
@@ -16,11 +17,12 @@ use crate::chunk::List;
 use crate::lane::Lane;
 
 pub(crate) use colours::Colours;
+use eight::Eight;
 pub(crate) use eight::{EIGHT, Visit};
-use eight::{Eight, Paths};
 pub(crate) use link::Change;
 use loose::{Loose, More};
 pub(crate) use met::{Inverse, Met, Remembered};
+use paths::Paths;
 pub use term::Implicit;
 
 /// What resists the relative motion of a pair, or of several side by side, for [`Implicit`].

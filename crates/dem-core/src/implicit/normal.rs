@@ -16,7 +16,7 @@ const MOST_ITERATIONS: u32 = 60;
 /// Steps of Newton's method without bounds.
 const TRIES: u32 = 4;
 /// From this g on a pair is backward Euler's.
-const STIFF: f64 = 4.0;
+pub(super) const STIFF: f64 = 4.0;
 /// Below this g its series is used.
 const SMALL: f64 = 0.3;
 

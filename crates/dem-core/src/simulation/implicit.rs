@@ -127,18 +127,19 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         }
         self.passes.at_most += u64::from(!settled);
         let stiff = |c: &Chunk<T::Column>| c.links.has_stiff() || c.links_across.has_stiff();
+        // All pairs or none: a stack of both kinds would drain at a wrong speed.
         if !settled || self.chunks.iter().any(stiff) {
-            self.close(!settled);
+            self.close();
         }
     }
 
     /// As [`crate::implicit::Links::close`] for all pairs.
-    fn close(&mut self, all: bool) {
+    fn close(&mut self) {
         self.inside(|solving, chunk, velocities| {
             let Chunk { links, inside, walls, range, .. } = chunk;
-            let memory =
-                &mut Remembering { term: solving.term, columns: &mut inside.columns, walls };
-            links.close(velocities, range.start, all, memory);
+            let columns = &mut inside.columns[..];
+            let memory = &mut Remembering { term: solving.term, columns, walls };
+            links.close(velocities, range.start, memory);
             Change::default()
         });
         let Self { chunks, particles, term, settings, .. } = self;
@@ -146,7 +147,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         each(chunks, settings.threads, |chunk| {
             let Chunk { links_across, across, .. } = chunk;
             let memory = &mut Remembering { term, columns: &mut across.columns, walls: &mut [] };
-            links_across.close(velocities, 0, all, memory);
+            links_across.close(velocities, 0, memory);
         });
     }
 
