@@ -62,7 +62,8 @@ pub struct Simulation<T: PairTerm, B> {
     departures: Vec<Departure>,
     profile: Profile,
     limit: Limit,
-    /// Scratch: what remembered impulses do to the velocities.
+    /// What the impulses that pairs across chunks remember do to the momenta of the particles; zero
+    /// between steps.
     pushed: Vec<crate::chunk::Sum>,
     /// 1/m and 1/I of the classes, for an implicit term.
     inverse: Vec<[f64; 2]>,

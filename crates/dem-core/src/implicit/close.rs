@@ -1,6 +1,6 @@
 //! The gaps up to which pairs count as charged, where their own impulses are not to say so.
 
-use super::eight::{EIGHT, Eight, number, set, take};
+use super::eight::{EIGHT, Eight, set, take};
 use super::link::Link;
 use super::loose;
 use super::{Links, Memory};
@@ -50,7 +50,7 @@ impl Kernel for Close<'_> {
                 let link: Link<L> = eight.load(permit, at);
                 let two = take::<L>(permit, velocities, &eight.slots, at, first);
                 let (speed, _) = link.motion(&two);
-                set(&mut charged, at, link.charge_to(speed, number(permit, &[0.0; EIGHT], at)));
+                set(&mut charged, at, link.charge_to(speed, L::splat(permit, 0.0)));
             }
             for k in (0..EIGHT).filter(|k| eight.which >> k & 1 == 1) {
                 if let Some(own) = memory.impulse(List::Inside, eight.index[k]) {

@@ -163,7 +163,7 @@ impl Eight {
 }
 
 #[inline(always)]
-pub(super) fn number<L: Lane>(permit: L::Permit, all: &[f64; EIGHT], at: usize) -> L {
+fn number<L: Lane>(permit: L::Permit, all: &[f64; EIGHT], at: usize) -> L {
     L::pack(permit, &L::each(|k| all[at + k]), |one| *one)
 }
 
