@@ -136,7 +136,7 @@ pub enum SimulationError {
     Threads {
         /// How many were asked for.
         threads: usize,
-        /// What the system said.
+        /// What the system said, or how many are allowed.
         reason: String,
     },
 }

@@ -65,7 +65,9 @@ pub use pair::{Encounter, Load, Pair, Partner};
 pub use pairs::{Columns, Geometry, Loads, Pairs};
 pub use particles::{Class, Particle, Particles};
 pub use profile::Profile;
-pub use simulation::{Departure, RollState, Settings, Simulation, Snapshot, WallMemory};
+pub use simulation::{
+    Departure, MOST_THREADS, RollState, Settings, Simulation, Snapshot, WallMemory,
+};
 pub use term::{EachColumn, PairTerm, TermError};
 pub use visits::{Visit, Visits};
 

@@ -30,6 +30,7 @@ mod threads;
 pub use settings::Settings;
 use settings::{check, check_walls};
 pub use snapshot::{RollState, Snapshot, WallMemory};
+pub use threads::MOST_THREADS;
 use threads::{attended, each, parallel};
 
 /// Steps between looks for particles that left the scene or walls that were taken away.

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// More threads are taken for a mistake.
-pub(crate) const MOST_THREADS: usize = 1024;
+pub(crate) use pendular::dem::MOST_THREADS;
 
 /// What is no number; which numbers are allowed is said where they are used.
 fn threads(text: &str) -> Result<usize, String> {

@@ -43,6 +43,9 @@ struct Cli {
     /// Solves for dashpots and drags at the end of the step (wet scenes).
     #[arg(long)]
     implicit: bool,
+    /// Share of the impulses at which the passes of `--implicit` stop.
+    #[arg(long, value_name = "SHARE")]
+    pass_tolerance: Option<f64>,
     /// Viscosity of the liquid, Pa s.
     #[arg(long, default_value_t = scene::VISCOSITY)]
     viscosity: f64,
@@ -99,7 +102,8 @@ fn main() -> ExitCode {
 }
 
 fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
-    let bed = scene::Bed::read(&cli.particles)?;
+    let bed = scene::Bed::read(&cli.particles)
+        .map_err(|error| format!("{}: {error}", cli.particles.display()))?;
     let half = cli.half.unwrap_or(bed.half());
     let &[nx, ny] = cli.tile.as_slice() else {
         return Err(format!("--tile needs two numbers, got {:?}", cli.tile).into());
@@ -113,6 +117,7 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
     let walls = scene::walls(cli.scene.has_screen(), cli.mesh, sides)?;
     let mut settings = scene::settings(cli.threads);
     (settings.skin, settings.inner_skin) = (cli.skin, cli.inner_skin);
+    settings.pass_tolerance = cli.pass_tolerance.unwrap_or(settings.pass_tolerance);
     let result = if cli.scene.is_wet() {
         let wet = scene::wet(&bed, &walls.0, cli.viscosity)?;
         let term = (scene::contact(bed.particles.classes())?, wet);
@@ -137,7 +142,8 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         result.memory
     );
     if let Some(path) = &cli.out {
-        std::fs::write(path, &result.centres)?;
+        let failed = |error| format!("{}: {error}", path.display());
+        std::fs::write(path, &result.centres).map_err(failed)?;
     }
     if cli.check {
         println!("{}", result.check);

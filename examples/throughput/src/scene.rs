@@ -27,6 +27,8 @@ const APERTURE: f64 = 5.6e-3;
 const WIRE: f64 = 1.6e-3;
 const PIPE: f64 = 0.1;
 
+const COLUMNS: [&str; 6] = ["id", "x", "y", "z", "radius", "density"];
+
 /// Settled spheres.
 pub(crate) struct Bed {
     pub(crate) particles: Particles,
@@ -42,7 +44,12 @@ impl Bed {
         let mut rows: Vec<(u16, DVec3)> = Vec::new();
         for record in reader.records() {
             let record = record?;
-            let number = |k: usize| record.get(k).unwrap_or("").trim().parse::<f64>();
+            let line = record.position().map_or(0, csv::Position::line);
+            let number = |k: usize| {
+                let text = record.get(k).unwrap_or("").trim();
+                let failed = |_| format!("line {line}: {:?} is no {}", text, COLUMNS[k]);
+                text.parse::<f64>().map_err(failed)
+            };
             let kind = [number(4)?, number(5)?];
             let class = kinds.iter().position(|k| *k == kind).unwrap_or_else(|| {
                 kinds.push(kind);

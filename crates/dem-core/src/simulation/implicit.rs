@@ -15,8 +15,6 @@ use crate::integrate::{Moved, drift};
 use crate::particles::Velocity;
 use crate::{Boundary, PairTerm, wall_pass};
 
-/// Rounds stop when their second half changes the impulses by less than this share of them.
-const SETTLED: f64 = 1e-3;
 const MOST_ROUNDS: u32 = 25;
 
 impl<T: PairTerm, B: Boundary> Simulation<T, B> {
@@ -103,6 +101,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
+    /// They stop when their second half changes the impulses by less than the tolerance.
     fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
         let mut settled = false;
@@ -120,7 +119,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let inside =
                 self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
             let change = inside + across;
-            settled = change.changed <= SETTLED * change.all;
+            settled = change.changed <= self.settings.pass_tolerance * change.all;
             if settled {
                 break;
             }

@@ -13,7 +13,7 @@ pub struct Settings {
     pub time_step: f64,
     /// Gravity, m/s².
     pub gravity: DVec3,
-    /// Threads; results do not depend on them. Those beyond one wait for work without sleeping while
+    /// Threads, 1 to [`crate::MOST_THREADS`]; results do not depend on them. Those beyond one wait for work without sleeping while
     /// [`crate::Simulation::advance`] runs.
     pub threads: usize,
     /// Corners of the box that particles may be in, m; one outside leaves the scene.
@@ -24,12 +24,16 @@ pub struct Settings {
     pub inner_skin: Option<f64>,
     /// Largest overlap at the start, as a share of the smaller radius.
     pub start_overlap: f64,
+    /// An implicit term's passes over all pairs stop when a pass changes the impulses by less than this
+    /// share of them, more than 0; results depend on it a little.
+    pub pass_tolerance: f64,
     /// Goes on with a time step above the stability limit.
     pub allow_unstable: bool,
 }
 
 impl Settings {
-    /// Earth's gravity along −z, one thread, no bounds, at most 5 % overlap at the start.
+    /// Earth's gravity along −z, one thread, no bounds, at most 5 % overlap at the start, passes down to
+    /// changes of 1 %.
     #[must_use]
     pub fn new(time_step: f64) -> Self {
         Self {
@@ -40,6 +44,7 @@ impl Settings {
             skin: None,
             inner_skin: None,
             start_overlap: 0.05,
+            pass_tolerance: 1e-2,
             allow_unstable: false,
         }
     }
@@ -69,6 +74,7 @@ pub(super) fn check<T: PairTerm>(
         ("skin", settings.skin),
         ("inner skin", settings.inner_skin),
         ("start overlap", Some(settings.start_overlap)),
+        ("pass tolerance", Some(settings.pass_tolerance)),
     ];
     for (quantity, value) in given {
         if let Some(value) = value.filter(|v| !(*v > 0.0 && *v < f64::INFINITY)) {

@@ -10,16 +10,21 @@ use rayon::{ThreadPool, Yield};
 use crate::SimulationError;
 use crate::chunk::Chunk;
 
+/// The most threads of a simulation. Where a system runs out of memory for threads the program ends
+/// at once; more than this is taken for a mistake.
+pub const MOST_THREADS: usize = 1024;
+
 /// A pool of threads; none where one is enough.
 pub(super) fn pool(threads: usize) -> Result<Option<Arc<ThreadPool>>, SimulationError> {
-    if threads <= 1 {
+    let failed = |reason: String| SimulationError::Threads { threads, reason };
+    if !(1..=MOST_THREADS).contains(&threads) {
+        return Err(failed(format!("allowed: 1 to {MOST_THREADS}")));
+    }
+    if threads == 1 {
         return Ok(None);
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let failed = |e: rayon::ThreadPoolBuildError| SimulationError::Threads {
-        threads,
-        reason: e.to_string(),
-    };
+    let failed = |e: rayon::ThreadPoolBuildError| failed(e.to_string());
     pool.map(|pool| Some(Arc::new(pool))).map_err(failed)
 }
 

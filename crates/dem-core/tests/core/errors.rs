@@ -2,8 +2,8 @@
 
 use pendular_contact::Linear;
 use pendular_dem_core::{
-    Class, Contact, DVec3, NoWalls, PairContact, ParticleError, Particles, Partner, Settings,
-    Simulation, SimulationError,
+    Class, Contact, DVec3, MOST_THREADS, NoWalls, PairContact, ParticleError, Particles, Partner,
+    Settings, Simulation, SimulationError,
 };
 
 use crate::bed::{RUB, Tray, contact};
@@ -108,6 +108,18 @@ fn settings_that_make_no_sense() {
         let term = contact(one().classes(), RUB);
         let error = Simulation::new(one(), term, NoWalls, Settings::new(step)).unwrap_err();
         assert!(matches!(error, SimulationError::Setting { quantity: "time step", .. }));
+    }
+    for pass_tolerance in [0.0, f64::NAN] {
+        let (term, settings) = (contact(one().classes(), RUB), Settings::new(1e-7));
+        let settings = Settings { pass_tolerance, ..settings };
+        let error = Simulation::new(one(), term, NoWalls, settings).unwrap_err();
+        assert!(matches!(error, SimulationError::Setting { quantity: "pass tolerance", .. }));
+    }
+    for threads in [0, MOST_THREADS + 1, usize::MAX] {
+        let (term, settings) = (contact(one().classes(), RUB), Settings::new(1e-7));
+        let error = Simulation::new(one(), term, NoWalls, Settings { threads, ..settings });
+        let said = error.unwrap_err().to_string();
+        assert_eq!(said, format!("could not start {threads} threads: allowed: 1 to 1024"));
     }
 }
 
