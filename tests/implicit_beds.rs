@@ -94,6 +94,32 @@ fn a_shaken_viscous_bed_goes_where_fine_explicit_steps_take_it() {
     );
 }
 
+/// Syrup between spheres that land on each other: the tolerance buys accuracy with passes.
+#[test]
+fn a_finer_tolerance_of_the_passes_leads_nearer_to_the_settled_impulses() {
+    let run = |pass_tolerance: f64| {
+        let (particles, walls, terms) = bed(6, 100.0, 0.07, 1.245e-3);
+        let settings = Settings { pass_tolerance, ..Settings::new(bed_step()) };
+        let mut simulation = implicit(particles, walls, terms, settings);
+        let before = places(&simulation);
+        simulation.advance(500).unwrap();
+        let passes = simulation.passes();
+        let after = places(&simulation);
+        let moved = rms(&before, &after);
+        (after, moved, passes.passes as f64 / passes.steps as f64)
+    };
+    let (settled, moved, _) = run(1e-9);
+    let mut last = (f64::INFINITY, 0.0);
+    for tolerance in [0.1, Settings::new(1.0).pass_tolerance, 3e-4] {
+        let (after, _, passes) = run(tolerance);
+        let off = rms(&after, &settled) / moved;
+        println!("tolerance {tolerance}: {passes:.1} passes a step, {off:.1e} of the way");
+        assert!(off < last.0 && passes > last.1, "{tolerance}: {off} {passes} {last:?}");
+        last = (off, passes);
+    }
+    assert!(last.0 < 1e-4, "{last:?}");
+}
+
 /// Whatever the velocities become between two steps, drags only take energy: what was remembered
 /// of the last step is scaled down to what brakes.
 #[test]

@@ -198,6 +198,9 @@ fn settings(scene: &Scene, limit: f64, threads: usize) -> Settings {
     let mut settings = Settings::new(step);
     settings.gravity = DVec3::from_array(scene.gravity);
     settings.threads = threads;
+    if let Some(liquid) = &scene.liquid {
+        settings.pass_tolerance = liquid.drag_tolerance;
+    }
     let far = if far.is_finite() { far } else { around };
     settings.domain =
         Some((DVec3::new(-around, -around, low), DVec3::new(far.max(around), around, top)));

@@ -19,6 +19,9 @@ pub(crate) struct LiquidSpec {
     /// How drags enter the step.
     #[serde(default)]
     pub(crate) drag: Drag,
+    /// Share of the impulses at which the passes of implicit drags stop.
+    #[serde(default = "passes")]
+    pub(crate) drag_tolerance: f64,
     /// Roughness of the lubrication gap as a share of the radius.
     #[serde(default = "thousandth")]
     pub(crate) roughness_share: f64,
@@ -71,4 +74,8 @@ pub(crate) enum OutsideRange {
 
 fn thousandth() -> f64 {
     0.001
+}
+
+fn passes() -> f64 {
+    0.003
 }
