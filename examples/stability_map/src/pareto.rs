@@ -40,27 +40,89 @@ pub(crate) fn draw(runs: &[Run]) -> String {
         svg.area([left, band], [WIDE, TOP + HIGH - band], 225);
         panel(&mut svg, (&x, 0.0, "processor time, s"), (&y, 0.0, &format!("error of {name}")));
         let at = |run: &Run| [x.at(run.found.cost), y.at((run.values()[k] - truth.0).abs())];
-        points(&mut svg, runs, at);
+        points(&mut svg, runs, left + WIDE, at);
     }
     svg.finish()
 }
 
-fn points(svg: &mut Svg, runs: &[Run], at: impl Fn(&Run) -> [f64; 2]) {
+fn points(svg: &mut Svg, runs: &[Run], right: f64, at: impl Fn(&Run) -> [f64; 2]) {
     let steps = runs.iter().filter(|run| run.axis == runs::Axis::Step);
     let line: Vec<_> = steps.map(&at).collect();
     if line.len() > 1 {
         svg.polyline(&line, Pen(120, 1.0, ""));
     }
+    let runs: Vec<_> = runs.iter().filter(|run| run.axis != runs::Axis::Reference).collect();
+    let mut taken: Vec<Area> = runs.iter().map(|run| Area::around(at(run))).collect();
     for run in runs {
-        let (mark, filled, words) = match run.axis {
-            runs::Axis::Reference => continue,
-            runs::Axis::Step => (Mark::Circle, true, format!("{}", run.way.share)),
-            runs::Axis::Law => (Mark::Square, false, run.label()),
-            runs::Axis::Wires => (Mark::Diamond, false, run.label()),
-            runs::Axis::Drag => (Mark::Square, true, run.label()),
+        let (mark, filled) = match run.axis {
+            runs::Axis::Law => (Mark::Square, false),
+            runs::Axis::Wires => (Mark::Diamond, false),
+            runs::Axis::Drag => (Mark::Square, true),
+            runs::Axis::Reference | runs::Axis::Step => (Mark::Circle, true),
         };
-        let [x, y] = at(run);
-        svg.mark([x, y], mark, filled);
-        svg.text([x + 7.0, y - 5.0], Anchor::Start, 9.5, &words);
+        let words = match run.axis {
+            runs::Axis::Step => run.way.share.to_string(),
+            _ => run.label(),
+        };
+        svg.mark(at(run), mark, filled);
+        let place = label(at(run), &words, right, &taken);
+        svg.text([place.left, place.bottom - 2.0], Anchor::Start, 9.5, &words);
+        taken.push(place);
+    }
+}
+
+/// A part of the drawing.
+#[derive(Debug, Clone, Copy)]
+struct Area {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+impl Area {
+    /// What a mark takes.
+    fn around([x, y]: [f64; 2]) -> Self {
+        Self { left: x - 5.0, right: x + 5.0, top: y - 5.0, bottom: y + 5.0 }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        let beside = self.left >= other.right || other.left >= self.right;
+        !(beside || self.top >= other.bottom || other.top >= self.bottom)
+    }
+}
+
+/// Where words about a mark go: beside it where nothing else is, and not beyond the right of the panel.
+fn label([x, y]: [f64; 2], words: &str, right: f64, taken: &[Area]) -> Area {
+    let wide = 5.2 * words.chars().count() as f64;
+    let area = |left: f64, middle: f64| Area {
+        left,
+        right: left + wide,
+        top: middle - 5.5,
+        bottom: middle + 5.5,
+    };
+    let downs = [0.0, -9.0, 9.0, -18.0, 18.0, -27.0, 27.0, -36.0, 36.0];
+    let places = downs.into_iter().flat_map(|down| {
+        let beside = if down == 0.0 { 8.0 } else { 3.0 };
+        [area(x + beside, y + down), area(x - beside - wide, y + down)]
+    });
+    let free = |place: &Area| place.right <= right && !taken.iter().any(|t| t.meets(place));
+    places.clone().find(free).unwrap_or_else(|| area((x + 8.0).min(right - wide), y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_about_marks_that_lie_close_do_not_cover_each_other() {
+        let marks = [[100.0, 50.0], [104.0, 52.0], [290.0, 50.0]];
+        let mut taken: Vec<Area> = marks.into_iter().map(Area::around).collect();
+        for mark in marks {
+            let place = label(mark, "young-laplace", 300.0, &taken);
+            assert!(!taken.iter().any(|t| t.meets(&place)), "{place:?}");
+            assert!(place.right <= 300.0 && place.left > 0.0, "{place:?}");
+            taken.push(place);
+        }
     }
 }
