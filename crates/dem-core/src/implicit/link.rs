@@ -51,7 +51,7 @@ pub(super) struct New<L> {
     pub(super) rolls: u32,
 }
 
-/// What a change of impulses amounts to, N s.
+/// How much a further pass is to change impulses, and what they amount to, N s.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Change<L = f64> {
     pub(crate) changed: L,
@@ -233,10 +233,16 @@ impl<L: Lane> Link<L> {
         self.shear += shear;
     }
 
-    /// What a change of the impulses amounts to, and what they do now.
+    /// What a further pass is to change after a change of the impulses, and what they amount to now.
+    ///
+    /// A change of an impulse goes over to the impulses of the pairs around it in the measure in which
+    /// these take what moves them: their own share of that, k/(1/m* + k), stands for theirs.
     #[inline(always)]
     pub(super) fn amount(&self, push: L, shear: Vector<L>) -> Change<L> {
-        Change { changed: size(push, shear), all: size(self.push, self.shear) }
+        let one = L::splat(push.permit(), 1.0);
+        let taken = (one - self.along.answer) * size(push);
+        let across = (one - self.slip.answer) * length(shear);
+        Change { changed: taken + across, all: size(self.push) + length(self.shear) }
     }
 
     /// The gap up to which the drag is charged when the impulse along the line of centres is changed
@@ -248,11 +254,15 @@ impl<L: Lane> Link<L> {
     }
 }
 
+#[inline(always)]
+fn size<L: Lane>(x: L) -> L {
+    x.most(-x)
+}
+
 /// How large an impulse is, as the sum of its parts.
 #[inline(always)]
-fn size<L: Lane>(push: L, shear: Vector<L>) -> L {
-    let Vector { x, y, z } = shear;
-    (push.most(-push) + x.most(-x)) + (y.most(-y) + z.most(-z))
+fn length<L: Lane>(Vector { x, y, z }: Vector<L>) -> L {
+    (size(x) + size(y)) + size(z)
 }
 
 /// Adds what impulses do to the bodies to their momenta, the first of which is that of slot `first`.

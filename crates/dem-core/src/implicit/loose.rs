@@ -211,7 +211,7 @@ impl Links {
             (shear, change) = (shear + slipped, turned);
         }
         link.change(two, push, shear);
-        if visit.forward {
+        if !visit.forward {
             return change;
         }
         if let Some(own) = memory.impulse(*list, *index) {
@@ -280,7 +280,8 @@ impl More {
             // The slip's own impulse has no slope then and would only fade.
             shear = change.slip + link.shear;
             self.couple += change.rolling;
-            amount = Change { changed: length(change.rolling), all: length(self.couple) };
+            let changed = length(change.slip) + length(change.rolling);
+            amount = Change { changed, all: length(self.couple) };
             turn(link, two, link.normal.cross(change.rolling) * self.reduced);
         }
         if self.rolling_limit > 0.0 {

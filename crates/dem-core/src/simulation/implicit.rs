@@ -15,7 +15,7 @@ use crate::integrate::{Moved, drift};
 use crate::particles::Velocity;
 use crate::{Boundary, PairTerm, wall_pass};
 
-const MOST_ROUNDS: u32 = 25;
+const MOST_PASSES: u64 = 51;
 
 impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// How hard the implicit resistances were to find so far.
@@ -100,30 +100,29 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         self.chunks = chunks;
     }
 
-    /// Rounds over all pairs, there and back: inside the chunks, across them, and the other way round.
-    /// They stop when their second half changes the impulses by less than the tolerance.
+    /// Passes over all pairs: one inside the chunks and then across them, more the other way round and
+    /// back until a further one would change the impulses by less than the tolerance.
     fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
-        let mut settled = false;
-        for round in 1..=MOST_ROUNDS {
-            self.passes.passes += 2;
-            let first = round == 1;
-            self.inside(|solving, chunk, velocities| {
-                let share = if first { solving.start(chunk, velocities) } else { 1.0 };
-                solving.pass(chunk, velocities, Visit { duration, share, forward: true })
-            });
-            let share = if first { self.start_across() } else { 1.0 };
-            self.across(Visit { duration, share, forward: true });
-            let back = Visit { duration, share: 1.0, forward: false };
-            let across = self.across(back);
-            let inside =
-                self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
-            let change = inside + across;
-            settled = change.changed <= self.settings.pass_tolerance * change.all;
-            if settled {
-                break;
-            }
+        let [there, back] = [true, false].map(|forward| Visit { duration, share: 1.0, forward });
+        let inside = self.inside(|solving, chunk, velocities| {
+            let share = solving.start(chunk, velocities);
+            solving.pass(chunk, velocities, Visit { share, ..there })
+        });
+        let share = self.start_across();
+        let mut left = inside + self.across(Visit { share, ..there });
+        let mut passes = 1;
+        let tolerance = self.settings.pass_tolerance;
+        let settled = |left: Change| left.changed <= tolerance * left.all;
+        while !settled(left) && passes < MOST_PASSES {
+            self.across(back);
+            self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
+            left = self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, there));
+            left = left + self.across(there);
+            passes += 2;
         }
+        self.passes.passes += passes;
+        let settled = settled(left);
         self.passes.at_most += u64::from(!settled);
         let stiff = |c: &Chunk<T::Column>| c.links.has_stiff() || c.links_across.has_stiff();
         // All pairs or none: a stack of both kinds would drain at a wrong speed.
