@@ -232,7 +232,7 @@ impl Links {
     }
 
     /// A visit of each of the links that lie side by side, their impulses scaled by `share` before
-    /// it. On the way forward they are written to `memory`; returns what all of that changed then.
+    /// it. On the way back they are written to `memory`; returns what a further pass is to change then.
     pub(crate) fn pass_eights(
         &mut self,
         velocities: &mut [Velocity],
@@ -277,14 +277,14 @@ impl Kernel for Work<'_> {
     fn run<L: Lane>(self, permit: L::Permit) {
         let Work { visit, eights, paths, velocities, first, memory, sums } = self;
         let all = eights.iter_mut().zip(paths);
-        if !visit.forward {
-            for (eight, paths) in all.rev() {
+        if visit.forward {
+            for (eight, paths) in all {
                 for at in (0..EIGHT).step_by(L::WIDTH) {
                     pass::<L>(permit, (eight, paths), at, velocities, first, visit, &*memory);
                 }
             }
         } else {
-            for (eight, paths) in all {
+            for (eight, paths) in all.rev() {
                 let mut charged = [0.0; EIGHT];
                 for at in (0..EIGHT).step_by(L::WIDTH) {
                     let (link, speed, push, shear) =

@@ -211,7 +211,7 @@ impl Links {
             (shear, change) = (shear + slipped, turned);
         }
         link.change(two, push, shear);
-        if !visit.forward {
+        if visit.forward {
             return change;
         }
         if let Some(own) = memory.impulse(*list, *index) {

@@ -175,6 +175,8 @@ pub(crate) struct Links {
     more: Vec<More>,
     /// The sums that scale a start, of the links that lie side by side, lane by lane.
     start: [[f64; EIGHT]; 2],
+    /// What the impulses are scaled by in the next pass.
+    share: f64,
     /// Whether there are stiff ones among them.
     stiff: bool,
 }
@@ -186,6 +188,16 @@ impl Links {
         self.more.clear();
         self.start = [[0.0; EIGHT]; 2];
         self.stiff = false;
+    }
+
+    /// Lets the impulses be scaled in the next pass.
+    pub(crate) fn start_from(&mut self, share: f64) {
+        self.share = share;
+    }
+
+    /// By how much the impulses are to be scaled in this pass.
+    pub(crate) fn take_share(&mut self) -> f64 {
+        std::mem::replace(&mut self.share, 1.0)
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -100,34 +100,47 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         self.chunks = chunks;
     }
 
-    /// Passes over all pairs: one inside the chunks and then across them, more the other way round and
-    /// back until a further one would change the impulses by less than the tolerance.
+    /// Passes over all pairs, one back and more there and back, until further ones would change the
+    /// impulses by less than the tolerance.
+    ///
+    /// Way back, what touches comes last: to leave over something there costs most.
     fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
-        let [there, back] = [true, false].map(|forward| Visit { duration, share: 1.0, forward });
-        let inside = self.inside(|solving, chunk, velocities| {
-            let share = solving.start(chunk, velocities);
-            solving.pass(chunk, velocities, Visit { share, ..there })
-        });
-        let share = self.start_across();
-        let mut left = inside + self.across(Visit { share, ..there });
-        let mut passes = 1;
+        self.start();
+        let mut change = self.pass(duration, false);
         let tolerance = self.settings.pass_tolerance;
-        let settled = |left: Change| left.changed <= tolerance * left.all;
-        while !settled(left) && passes < MOST_PASSES {
-            self.across(back);
-            self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, back));
-            left = self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, there));
-            left = left + self.across(there);
+        let mut settled = change.changed <= tolerance * change.all;
+        let mut passes = 1;
+        while !settled && passes < MOST_PASSES {
+            let last = change.changed;
+            self.pass(duration, true);
+            change = self.pass(duration, false);
             passes += 2;
+            settled = rest(last, change.changed) <= tolerance * change.all;
         }
         self.passes.passes += passes;
-        let settled = settled(left);
         self.passes.at_most += u64::from(!settled);
         let stiff = |c: &Chunk<T::Column>| c.links.has_stiff() || c.links_across.has_stiff();
         // All pairs or none: a stack of both kinds would drain at a wrong speed.
         if !settled || self.chunks.iter().any(stiff) {
             self.close();
+        }
+    }
+
+    /// A pass over all pairs for impulses that act for `duration` s: inside the chunks and then across
+    /// them, or the other way round.
+    fn pass(&mut self, duration: f64, forward: bool) -> Change {
+        if forward {
+            let inside = self.inside(|solving, chunk, velocities| {
+                solving.pass(chunk, velocities, duration, forward)
+            });
+            inside + self.across(duration, forward)
+        } else {
+            let across = self.across(duration, forward);
+            let inside = self.inside(|solving, chunk, velocities| {
+                solving.pass(chunk, velocities, duration, forward)
+            });
+            across + inside
         }
     }
 
@@ -170,8 +183,13 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         changes.into_iter().fold(Change::default(), |a, b| a + b)
     }
 
-    /// As [`Solving::start`] for the pairs across chunks, all with one share.
-    fn start_across(&mut self) -> f64 {
+    /// Starts from the impulses of the last step: [`Solving::start`], and the same for the pairs across
+    /// chunks, all with one share.
+    fn start(&mut self) {
+        self.inside(|solving, chunk, velocities| {
+            solving.start(chunk, velocities);
+            Change::default()
+        });
         let Self { chunks, particles, pushed, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
         pushed.resize(particles.velocities.len(), Sum::default());
@@ -192,24 +210,30 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
         for (slot, body) in bodies {
             give(&mut particles.velocities[slot], &std::mem::take(&mut pushed[slot]), body, share);
         }
-        share
+        chunks.iter_mut().for_each(|chunk| chunk.links_across.start_from(share));
     }
 
     /// A pass over the pairs across chunks.
-    fn across(&mut self, visit: Visit) -> Change {
+    fn across(&mut self, duration: f64, forward: bool) -> Change {
         let Self { chunks, particles, term, .. } = self;
         let (term, velocities) = (&*term, &mut particles.velocities[..]);
         let one = |change: Change, chunk: &mut Chunk<T::Column>| {
             let Chunk { links_across, across, .. } = chunk;
             let memory = &mut Remembering { term, columns: &mut across.columns, walls: &mut [] };
+            let visit = Visit { duration, share: links_across.take_share(), forward };
             change + links_across.pass_loose(velocities, 0, visit, memory)
         };
-        if visit.forward {
+        if forward {
             chunks.iter_mut().fold(Change::default(), one)
         } else {
             chunks.iter_mut().rev().fold(Change::default(), one)
         }
     }
+}
+
+/// What changes that fall from `last` to `now` are to add up to from here on, if they go on falling so.
+fn rest(last: f64, now: f64) -> f64 {
+    if now < last { now * now / (last - now) } else { now }
 }
 
 /// What the impulses of a step are found with.
@@ -220,11 +244,11 @@ struct Solving<'a, T> {
 
 impl<T: PairTerm> Solving<'_, T> {
     /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
-    /// best multiple of them as a guess of this step's, which is returned.
-    fn start(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) -> f64 {
+    /// best multiple of them as a guess of this step's.
+    fn start(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
         let Chunk { links, range, pushed, .. } = chunk;
         if links.is_empty() {
-            return 0.0;
+            return;
         }
         let [mut own, mut below] = links.start_loose(pushed, range.start);
         let [side_by_side, below_side_by_side] = links.start_eights();
@@ -238,7 +262,7 @@ impl<T: PairTerm> Solving<'_, T> {
         for ((velocity, push), body) in velocities.iter_mut().zip(pushed).zip(bodies) {
             give(velocity, &std::mem::take(push), body, share);
         }
-        share
+        links.start_from(share);
     }
 
     /// A pass over the pairs inside a chunk and with walls.
@@ -246,12 +270,14 @@ impl<T: PairTerm> Solving<'_, T> {
         &self,
         chunk: &mut Chunk<T::Column>,
         velocities: &mut [Velocity],
-        visit: Visit,
+        duration: f64,
+        forward: bool,
     ) -> Change {
         let Chunk { links, inside, walls, range, .. } = chunk;
         let (columns, first) = (&mut inside.columns[..], range.start);
         let memory = &mut Remembering { term: self.term, columns, walls };
-        if visit.forward {
+        let visit = Visit { duration, share: links.take_share(), forward };
+        if forward {
             let change = links.pass_eights(velocities, first, visit, memory);
             change + links.pass_loose(velocities, first, visit, memory)
         } else {

@@ -33,7 +33,7 @@ pub struct Settings {
 
 impl Settings {
     /// Earth's gravity along −z, one thread, no bounds, at most 5 % overlap at the start, passes down to
-    /// changes of 0.3 %.
+    /// changes of 1 %.
     #[must_use]
     pub fn new(time_step: f64) -> Self {
         Self {
@@ -44,7 +44,7 @@ impl Settings {
             skin: None,
             inner_skin: None,
             start_overlap: 0.05,
-            pass_tolerance: 3e-3,
+            pass_tolerance: 1e-2,
             allow_unstable: false,
         }
     }

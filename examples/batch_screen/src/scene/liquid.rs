@@ -77,5 +77,5 @@ fn thousandth() -> f64 {
 }
 
 fn passes() -> f64 {
-    0.003
+    0.01
 }
