@@ -215,14 +215,18 @@ fn link<T: PairTerm, L: Lane>(
     }
     let links = &mut *out.links[usize::from(!inside)];
     let times = pass.view.kick_and_drift();
-    let mut loose = which & any;
-    if inside && L::WIDTH > 1 {
+    let which = which & any;
+    let rest = if inside && L::WIDTH > 1 {
         let pushed = (&mut *out.pushed, out.range.start);
-        loose = links.add(pass.permit, met, loose, inverse, times, pushed);
-    }
-    for k in (0..L::WIDTH).filter(|k| loose >> k & 1 == 1) {
+        links.add(pass.permit, met, which, inverse, times, pushed)
+    } else if which != 0 {
+        links.add_loose(pass.permit, met, which, list.which, inverse, times)
+    } else {
+        0
+    };
+    for k in (0..L::WIDTH).filter(|k| rest >> k & 1 == 1) {
         let impulse = impulse(pass.term, &mut list.columns[met.index[k] as usize]);
-        links.add_loose(met, (k, impulse), list.which, inverse, times);
+        links.add_single(met, (k, impulse), list.which, inverse, times);
     }
 }
 

@@ -18,9 +18,9 @@ impl Links {
     pub(crate) fn close(&self, velocities: &[Velocity], first: u32, memory: &mut dyn Memory) {
         let eights = &self.all_eights[..self.taken.div_ceil(EIGHT)];
         in_widest(Close { eights, velocities, first, memory });
-        for (k, one) in self.loose.iter().enumerate() {
+        for one in &self.loose {
             if let Some(own) = memory.impulse(one.list, one.index) {
-                let two = loose::take(velocities, one.slots, first, self.wall(k));
+                let two = loose::take(velocities, one.slots, first, one.wall);
                 let (speed, _) = one.link.motion(&two);
                 own.charged = one.link.charge_to(speed, 0.0);
             }

@@ -13,7 +13,7 @@ const COLOURS: usize = 64;
 /// A greedy colouring of pairs: those of one colour have no body in common.
 #[derive(Debug, Default)]
 pub(crate) struct Colours {
-    /// The colours that are taken at each slot of the chunk, one bit each; none between calls.
+    /// The colours that are taken at each slot of the chunk, one bit each.
     taken: Vec<u64>,
     colour: Vec<u8>,
     sorted: Vec<u32>,
@@ -32,6 +32,7 @@ impl Colours {
         range: &Range<u32>,
     ) -> usize {
         let Self { taken, colour, sorted } = self;
+        taken.clear();
         taken.resize(range.len(), 0);
         let bodies = |at: u32| active[at as usize].map(|slot| (slot - range.start) as usize);
         // The last count is of those for which no colour is left.
@@ -45,10 +46,6 @@ impl Colours {
             taken[b] |= bit;
             counts[free as usize] += 1;
             colour.push(free as u8);
-        }
-        for &at in &*acting {
-            let [a, b] = bodies(at);
-            (taken[a], taken[b]) = (0, 0);
         }
         // Whole eights of every colour first, then what is left of it.
         let whole = |count: usize| count / EIGHT * EIGHT;

@@ -108,7 +108,7 @@ impl Eight {
     }
 
     #[inline(always)]
-    fn store<L: Lane>(&mut self, at: usize, link: &Link<L>) {
+    pub(super) fn store<L: Lane>(&mut self, at: usize, link: &Link<L>) {
         let Link { normal, levers, inverse, slip, .. } = *link;
         self.set_impulses(at, link);
         self.set_along(at, &link.along);
@@ -176,6 +176,16 @@ pub(super) fn set<L: Lane>(all: &mut [f64; EIGHT], at: usize, value: L) {
 }
 
 impl Links {
+    /// The first place among eights that is not taken.
+    #[inline(always)]
+    pub(super) fn make_room(&mut self) -> usize {
+        if self.taken / EIGHT == self.all_eights.len() {
+            self.all_eights.push(Eight::NONE);
+            self.all_paths.push(Paths::NONE);
+        }
+        self.taken
+    }
+
     /// Makes links of pairs of which no two have a body in common, those in `which`, and adds what
     /// the impulses that they remember do to `pushed`, whose first is that of slot `first`. Returns
     /// those that have more to them, which are left out; their places stay empty.
@@ -190,11 +200,8 @@ impl Links {
         (pushed, first): (&mut [Sum], u32),
     ) -> u32 {
         let New { link, path, searched, rolls } = New::of(permit, met, inverse, times);
-        let (last, at) = (self.taken / EIGHT, self.taken % EIGHT);
-        if last == self.all_eights.len() {
-            self.all_eights.push(Eight::NONE);
-            self.all_paths.push(Paths::NONE);
-        }
+        let at = self.make_room();
+        let (last, at) = (at / EIGHT, at % EIGHT);
         self.taken += L::WIDTH;
         let (eight, paths) = (&mut self.all_eights[last], &mut self.all_paths[last]);
         if at == 0 {

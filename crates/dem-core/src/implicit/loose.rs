@@ -3,6 +3,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::eight::EIGHT;
 use super::link::{Body, Change, Link, New, Path, Two, add_momentum};
 use super::shear::{Coupled, Motion};
 use super::{Impulse, Inverse, Links, Memory, Met, Remembered, Resist, Visit};
@@ -26,15 +27,15 @@ pub(crate) struct Loose {
     more: u32,
     /// Whether the impulse along the normal has to be searched for.
     searched: bool,
+    /// Velocity of the wall, m/s; zero between particles.
+    pub(super) wall: DVec3,
     pub(super) link: Link<f64>,
     path: Path<f64>,
 }
 
-/// What not every link has: a wall, rolling friction, a drag on rolling.
+/// What not every link has: rolling friction, a drag on rolling.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct More {
-    /// Velocity of the wall, m/s; zero between particles.
-    wall: DVec3,
     couple: Vector<f64>,
     rolling: Vector<f64>,
     rolling_limit: f64,
@@ -44,9 +45,44 @@ pub(super) struct More {
 }
 
 impl Links {
-    /// Makes a link by itself of pair `k`.
+    /// Makes links by themselves of those pairs in `which`. Returns those that have more to them, which
+    /// are left out.
     #[inline(always)]
     pub(crate) fn add_loose<L: Lane>(
+        &mut self,
+        permit: L::Permit,
+        met: &Met<'_, L>,
+        which: u32,
+        list: List,
+        inverse: Inverse<'_>,
+        times: [f64; 2],
+    ) -> u32 {
+        let New { link, path, searched, rolls } = New::of(permit, met, inverse, times);
+        self.stiff |= link.is_stiff() & which != 0;
+        let at = self.make_room();
+        let (eight, paths) = (&mut self.all_eights[at / EIGHT], &mut self.all_paths[at / EIGHT]);
+        // They are taken apart where the next eight will be.
+        let at = at % EIGHT;
+        eight.store(at, &link);
+        paths.store(at, &path);
+        for k in (0..L::WIDTH).filter(|k| (which & !rolls) >> k & 1 == 1) {
+            self.loose.push(Loose {
+                slots: met.slots[k],
+                list,
+                index: met.index[k],
+                more: NOTHING_MORE,
+                searched: searched >> k & 1 == 1,
+                wall: DVec3::ZERO,
+                link: eight.load::<f64>((), at + k),
+                path: paths.one(at + k),
+            });
+        }
+        which & rolls
+    }
+
+    /// Makes a link by itself of pair `k`, whatever there is to it.
+    #[inline(never)]
+    pub(crate) fn add_single<L: Lane>(
         &mut self,
         met: &Met<'_, L>,
         (k, impulse): (usize, Impulse),
@@ -115,47 +151,40 @@ impl Links {
         let New { link, path, searched, rolls } = New::of((), met, inverse, times);
         let ([slots], [index]) = (met.slots, met.index);
         let mut more = NOTHING_MORE;
-        if slots[0] == slots[1] || rolls != 0 {
+        if rolls != 0 {
             more = self.more.len() as u32;
             self.more.push(More::new(met, impulse, &link, times[0]));
         }
         let searched = searched != 0;
         self.stiff |= link.is_stiff() != 0;
-        self.loose.push(Loose { slots, list, index, more, searched, link, path });
+        let wall = DVec3::ZERO;
+        self.loose.push(Loose { slots, list, index, more, searched, wall, link, path });
     }
 
     /// Takes the velocities of the walls, by the index of the pair with one.
     pub(crate) fn meet_walls(&mut self, velocity: impl Fn(u32) -> DVec3) {
-        for loose in &self.loose {
-            if let (List::Wall { .. }, Some(more)) =
-                (loose.list, self.more.get_mut(loose.more as usize))
-            {
-                more.wall = velocity(loose.index);
+        for loose in &mut self.loose {
+            if let List::Wall { .. } = loose.list {
+                loose.wall = velocity(loose.index);
             }
         }
-    }
-
-    /// The wall's velocity, or none.
-    #[inline(always)]
-    pub(super) fn wall(&self, k: usize) -> DVec3 {
-        self.more.get(self.loose[k].more as usize).map_or(DVec3::ZERO, |more| more.wall)
     }
 
     /// Adds what the impulses that they remember do to `pushed`, whose first is that of slot
     /// `first`; returns the sums that scale a start, of these pairs alone.
     pub(crate) fn start_loose(&self, pushed: &mut [Sum], first: u32) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        for Loose { slots, more, link, .. } in &self.loose {
-            let [mut own, below] = link.start();
+        for Loose { slots, more, wall, link, .. } in &self.loose {
+            let [own, below] = link.start();
             let [push, mut a, mut b] = link.momentum();
             if let Some(more) = self.more.get(*more as usize) {
-                own -= push.dot(vector(more.wall));
                 let couple = link.normal.cross(more.couple) * more.reduced + more.rolling;
                 (a, b) = (a + couple, b - couple);
             }
-            let [push, a, b] = [push, a, b].map(|v| v.rows(())[0]);
-            add_momentum(pushed, *slots, first, push, [a, b]);
+            let own = own - push.dot(vector(*wall));
             sums = [sums[0] + own, sums[1] + below];
+            let ([push], [a], [b]) = (push.rows(()), a.rows(()), b.rows(()));
+            add_momentum(pushed, *slots, first, push, [a, b]);
         }
         sums
     }
@@ -172,7 +201,7 @@ impl Links {
         let mut change = Change::default();
         for n in 0..count {
             let k = if visit.forward { n } else { count - 1 - n };
-            let mut two = take(velocities, self.loose[k].slots, first, self.wall(k));
+            let mut two = take(velocities, self.loose[k].slots, first, self.loose[k].wall);
             change = change + self.relax(k, &mut two, visit, memory);
             put(velocities, self.loose[k].slots, first, &two);
         }
@@ -251,7 +280,6 @@ impl More {
             v - normal * v.dot(normal)
         };
         Self {
-            wall: DVec3::ZERO,
             // What nothing resists any more has no impulse either.
             couple: if coupled.is_some() { flat(impulse.couple) } else { Vector::zero(()) },
             rolling: if resist.rolling > 0.0 { flat(impulse.rolling) } else { Vector::zero(()) },

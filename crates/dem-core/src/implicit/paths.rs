@@ -25,7 +25,14 @@ impl Paths {
     }
 
     pub(super) fn one(&self, k: usize) -> Path<f64> {
-        let [charged, paid, found, before, dashpot, pull] = self.0.each_ref().map(|all| all[k]);
-        Path { charged, paid, found, before, dashpot, pull }
+        let [charged, paid, found, before, dashpot, pull] = &self.0;
+        Path {
+            charged: charged[k],
+            paid: paid[k],
+            found: found[k],
+            before: before[k],
+            dashpot: dashpot[k],
+            pull: pull[k],
+        }
     }
 }
