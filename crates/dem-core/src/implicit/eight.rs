@@ -7,7 +7,7 @@ use super::link::{Body, Change, Course, Link, New, Two, add_momentum};
 use super::normal::Normal;
 use super::paths::Paths;
 use super::shear::Slip;
-use super::{Inverse, Links, Memory, Met};
+use super::{Colours, Inverse, Links, Memory, Met};
 use crate::chunk::{List, Sum};
 use crate::lane::{Kernel, Lane, Vector, in_widest};
 use crate::particles::{Row, Velocity};
@@ -15,6 +15,9 @@ use crate::view::motion;
 
 /// How many lie side by side.
 pub(crate) const EIGHT: usize = 8;
+/// Eights whose impulses are looked at together to see whether the passes may end. They lie near each
+/// other: what goes on elsewhere does not hide what is to change among them.
+const GROUP: usize = Colours::WINDOW / EIGHT;
 // Where some of the numbers are; a vector takes three places.
 const PUSH: usize = 9;
 const SHEAR: usize = 13;
@@ -238,23 +241,31 @@ impl Links {
         which & rolls
     }
 
-    /// A visit of each of the links that lie side by side, their impulses scaled by `share` before
-    /// it. On the way back they are written to `memory`; returns what a further pass is to change then.
+    /// A visit of each of the links that lie side by side. On the way back their impulses are written
+    /// to `memory`; returns whether further passes are to change little of them then.
     pub(crate) fn pass_eights(
         &mut self,
         velocities: &mut [Velocity],
         first: u32,
         visit: Visit,
         memory: &mut dyn Memory,
-    ) -> Change {
-        let mut sums = [[0.0; EIGHT]; 2];
-        let (eights, paths) = (&mut self.all_eights[..], &mut self.all_paths[..]);
+    ) -> bool {
         let count = self.taken.div_ceil(EIGHT);
-        let (eights, paths) = (&mut eights[..count], &mut paths[..count]);
-        let work = Work { visit, eights, paths, velocities, first, memory, sums: &mut sums };
-        in_widest(work);
-        let [changed, all] = sums.map(|lanes| lanes.iter().sum());
-        Change { changed, all }
+        self.last.resize(count.div_ceil(GROUP), f64::NAN);
+        let mut settled = true;
+        let groups = self.last.len();
+        for n in 0..groups {
+            let n = if visit.forward { n } else { groups - 1 - n };
+            let which = n * GROUP..count.min((n + 1) * GROUP);
+            let mut sums = [[0.0; EIGHT]; 2];
+            let (eights, paths) = (&mut self.all_eights[which.clone()], &mut self.all_paths[which]);
+            let memory = &mut *memory;
+            in_widest(Work { visit, eights, paths, velocities, first, memory, sums: &mut sums });
+            let [changed, all] = sums.map(|lanes| lanes.iter().sum());
+            let change = Change { changed, all };
+            settled &= visit.forward || change.is_little(&mut self.last[n], visit.tolerance);
+        }
+        settled
     }
 }
 
@@ -263,8 +274,11 @@ impl Links {
 pub(crate) struct Visit {
     /// Duration of the impulses, s.
     pub(crate) duration: f64,
+    /// By how much their impulses are scaled before it.
     pub(crate) share: f64,
     pub(crate) forward: bool,
+    /// The share of the impulses that may be left to change.
+    pub(crate) tolerance: f64,
 }
 
 /// Visits of links between bodies whose velocities these are, the first of them that of slot `first`.

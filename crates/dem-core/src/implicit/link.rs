@@ -58,6 +58,17 @@ pub(crate) struct Change<L = f64> {
     pub(crate) all: L,
 }
 
+impl Change {
+    /// Whether further passes are to change less than the tolerance of the impulses. `last` is what the
+    /// pass before the last was to change, not a number at first.
+    pub(super) fn is_little(self, last: &mut f64, tolerance: f64) -> bool {
+        let (before, now) = (std::mem::replace(last, self.changed), self.changed);
+        // What the changes add up to if they go on falling as they fell.
+        let rest = if now < before { now * now / (before - now) } else { now };
+        rest <= tolerance * self.all
+    }
+}
+
 impl<L: Lane> std::ops::Add for Change<L> {
     type Output = Self;
 

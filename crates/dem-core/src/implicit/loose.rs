@@ -196,7 +196,7 @@ impl Links {
         first: u32,
         visit: Visit,
         memory: &mut dyn Memory,
-    ) -> Change {
+    ) -> bool {
         let count = self.loose.len();
         let mut change = Change::default();
         for n in 0..count {
@@ -205,7 +205,7 @@ impl Links {
             change = change + self.relax(k, &mut two, visit, memory);
             put(velocities, self.loose[k].slots, first, &two);
         }
-        change
+        visit.forward || change.is_little(&mut self.last_loose, visit.tolerance)
     }
 
     /// One visit of a pass: changes the impulses so that they fit the velocities, and the velocities

@@ -19,7 +19,6 @@ use crate::lane::Lane;
 pub(crate) use colours::Colours;
 use eight::Eight;
 pub(crate) use eight::{EIGHT, Visit};
-pub(crate) use link::Change;
 use loose::{Loose, More};
 pub(crate) use met::{Inverse, Met, Remembered};
 use paths::Paths;
@@ -175,6 +174,9 @@ pub(crate) struct Links {
     more: Vec<More>,
     /// The sums that scale a start, of the links that lie side by side, lane by lane.
     start: [[f64; EIGHT]; 2],
+    /// What the pass before the last was to change, of each group of eights, and of those by themselves.
+    last: Vec<f64>,
+    last_loose: f64,
     /// What the impulses are scaled by in the next pass.
     share: f64,
     /// Whether there are stiff ones among them.
@@ -188,6 +190,8 @@ impl Links {
         self.more.clear();
         self.start = [[0.0; EIGHT]; 2];
         self.stiff = false;
+        self.last.clear();
+        self.last_loose = f64::NAN;
     }
 
     /// Lets the impulses be scaled in the next pass.

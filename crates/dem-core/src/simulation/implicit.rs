@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::{Simulation, each, parallel};
 use crate::chunk::{Chunk, List, Note, Sum, WallPair};
-use crate::implicit::{Change, Impulse, Inverse, Memory, Passes, Visit};
+use crate::implicit::{Impulse, Inverse, Memory, Passes, Visit};
 use crate::integrate::{Moved, drift};
 use crate::particles::Velocity;
 use crate::{Boundary, PairTerm, wall_pass};
@@ -107,16 +107,12 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn resist(&mut self, duration: f64) {
         self.passes.steps += 1;
         self.start();
-        let mut change = self.pass(duration, false);
-        let tolerance = self.settings.pass_tolerance;
-        let mut settled = change.changed <= tolerance * change.all;
+        let mut settled = self.pass(duration, false);
         let mut passes = 1;
         while !settled && passes < MOST_PASSES {
-            let last = change.changed;
             self.pass(duration, true);
-            change = self.pass(duration, false);
+            settled = self.pass(duration, false);
             passes += 2;
-            settled = rest(last, change.changed) <= tolerance * change.all;
         }
         self.passes.passes += passes;
         self.passes.at_most += u64::from(!settled);
@@ -128,20 +124,14 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// A pass over all pairs for impulses that act for `duration` s: inside the chunks and then across
-    /// them, or the other way round.
-    fn pass(&mut self, duration: f64, forward: bool) -> Change {
-        if forward {
-            let inside = self.inside(|solving, chunk, velocities| {
-                solving.pass(chunk, velocities, duration, forward)
-            });
-            inside + self.across(duration, forward)
-        } else {
-            let across = self.across(duration, forward);
-            let inside = self.inside(|solving, chunk, velocities| {
-                solving.pass(chunk, velocities, duration, forward)
-            });
-            across + inside
-        }
+    /// them, or the other way round. Returns whether that was the last on the way back.
+    fn pass(&mut self, duration: f64, forward: bool) -> bool {
+        let tolerance = self.settings.pass_tolerance;
+        let visit = Visit { duration, share: 1.0, forward, tolerance };
+        let across = !forward && self.across(visit);
+        let inside =
+            self.inside(|solving, chunk, velocities| solving.pass(chunk, velocities, visit));
+        if forward { self.across(visit) } else { across && inside }
     }
 
     /// As [`crate::implicit::Links::close`] for all pairs.
@@ -151,7 +141,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
             let columns = &mut inside.columns[..];
             let memory = &mut Remembering { term: solving.term, columns, walls };
             links.close(velocities, range.start, memory);
-            Change::default()
+            true
         });
         let Self { chunks, particles, term, settings, .. } = self;
         let (term, velocities) = (&*term, &particles.velocities[..]);
@@ -165,22 +155,22 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     /// Does something with every chunk and its velocities.
     fn inside(
         &mut self,
-        work: impl Fn(&Solving<'_, T>, &mut Chunk<T::Column>, &mut [Velocity]) -> Change + Sync + Send,
-    ) -> Change {
+        work: impl Fn(&Solving<'_, T>, &mut Chunk<T::Column>, &mut [Velocity]) -> bool + Sync + Send,
+    ) -> bool {
         let Self { chunks, particles, term, lists, settings, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
         let solving = Solving { term, inverse };
         let velocities = &mut particles.velocities;
         let one =
             |(chunk, velocities): (&mut _, &mut [Velocity])| work(&solving, chunk, velocities);
-        let changes: Vec<Change> = if parallel(chunks.len(), settings.threads) {
+        let settled: Vec<bool> = if parallel(chunks.len(), settings.threads) {
             let parts = velocities.par_chunks_mut(lists.chunk_size);
             chunks.par_iter_mut().zip(parts).map(one).collect()
         } else {
             let parts = velocities.chunks_mut(lists.chunk_size);
             chunks.iter_mut().zip(parts).map(one).collect()
         };
-        changes.into_iter().fold(Change::default(), |a, b| a + b)
+        settled.into_iter().all(|settled| settled)
     }
 
     /// Starts from the impulses of the last step: [`Solving::start`], and the same for the pairs across
@@ -188,7 +178,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     fn start(&mut self) {
         self.inside(|solving, chunk, velocities| {
             solving.start(chunk, velocities);
-            Change::default()
+            true
         });
         let Self { chunks, particles, pushed, inverse, .. } = self;
         let inverse = Inverse { classes: inverse, class: &particles.class };
@@ -214,26 +204,21 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// A pass over the pairs across chunks.
-    fn across(&mut self, duration: f64, forward: bool) -> Change {
+    fn across(&mut self, visit: Visit) -> bool {
         let Self { chunks, particles, term, .. } = self;
         let (term, velocities) = (&*term, &mut particles.velocities[..]);
-        let one = |change: Change, chunk: &mut Chunk<T::Column>| {
+        let one = |settled: bool, chunk: &mut Chunk<T::Column>| {
             let Chunk { links_across, across, .. } = chunk;
             let memory = &mut Remembering { term, columns: &mut across.columns, walls: &mut [] };
-            let visit = Visit { duration, share: links_across.take_share(), forward };
-            change + links_across.pass_loose(velocities, 0, visit, memory)
+            let visit = Visit { share: links_across.take_share(), ..visit };
+            links_across.pass_loose(velocities, 0, visit, memory) && settled
         };
-        if forward {
-            chunks.iter_mut().fold(Change::default(), one)
+        if visit.forward {
+            chunks.iter_mut().fold(true, one)
         } else {
-            chunks.iter_mut().rev().fold(Change::default(), one)
+            chunks.iter_mut().rev().fold(true, one)
         }
     }
-}
-
-/// What changes that fall from `last` to `now` are to add up to from here on, if they go on falling so.
-fn rest(last: f64, now: f64) -> f64 {
-    if now < last { now * now / (last - now) } else { now }
 }
 
 /// What the impulses of a step are found with.
@@ -243,8 +228,7 @@ struct Solving<'a, T> {
 }
 
 impl<T: PairTerm> Solving<'_, T> {
-    /// Starts from the impulses of the last step, scaled so that they cannot drive anything: the
-    /// best multiple of them as a guess of this step's.
+    /// Starts from the impulses of the last step, scaled so that they cannot drive anything.
     fn start(&self, chunk: &mut Chunk<T::Column>, velocities: &mut [Velocity]) {
         let Chunk { links, range, pushed, .. } = chunk;
         if links.is_empty() {
@@ -270,19 +254,18 @@ impl<T: PairTerm> Solving<'_, T> {
         &self,
         chunk: &mut Chunk<T::Column>,
         velocities: &mut [Velocity],
-        duration: f64,
-        forward: bool,
-    ) -> Change {
+        visit: Visit,
+    ) -> bool {
         let Chunk { links, inside, walls, range, .. } = chunk;
         let (columns, first) = (&mut inside.columns[..], range.start);
         let memory = &mut Remembering { term: self.term, columns, walls };
-        let visit = Visit { duration, share: links.take_share(), forward };
-        if forward {
-            let change = links.pass_eights(velocities, first, visit, memory);
-            change + links.pass_loose(velocities, first, visit, memory)
+        let visit = Visit { share: links.take_share(), ..visit };
+        if visit.forward {
+            let settled = links.pass_eights(velocities, first, visit, memory);
+            links.pass_loose(velocities, first, visit, memory) && settled
         } else {
-            let change = links.pass_loose(velocities, first, visit, memory);
-            change + links.pass_eights(velocities, first, visit, memory)
+            let settled = links.pass_loose(velocities, first, visit, memory);
+            links.pass_eights(velocities, first, visit, memory) && settled
         }
     }
 }
@@ -302,9 +285,11 @@ fn add_motion(
     [own + (p.dot(v) + l.dot(w)), below + moved]
 }
 
-/// The multiple of the remembered impulses that lowers the energy most.
+/// The largest multiple of the remembered impulses, up to all of them, that drives no more than a start
+/// without any: twice the one that is best for all pairs together. That one would be too little
+/// wherever the impulses are still right, because of those elsewhere that are not.
 fn share([own, below]: [f64; 2]) -> f64 {
-    if below > 0.0 { (-own / below).clamp(0.0, 1.0) } else { 0.0 }
+    if below > 0.0 { (-2.0 * own / below).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Gives a share of impulses to a particle.
