@@ -1,6 +1,6 @@
 /// A parameter of a contact law outside its allowed range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{quantity} = {value} is outside the allowed range {} to {}", allowed.0, allowed.1)]
+#[error("{quantity} = {value:?} is outside the allowed range {:?} to {:?}", allowed.0, allowed.1)]
 pub struct ContactError {
     /// What was out of range, in words.
     pub quantity: &'static str,

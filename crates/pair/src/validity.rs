@@ -2,7 +2,7 @@ use crate::Bridge;
 
 /// A value that a law, or the physics, does not allow.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{quantity} = {value} is outside the allowed range {} to {}", allowed.0, allowed.1)]
+#[error("{quantity} = {value:?} is outside the allowed range {:?} to {:?}", allowed.0, allowed.1)]
 pub struct OutOfRange {
     /// What was out of range, in words.
     pub quantity: &'static str,
@@ -118,5 +118,13 @@ mod tests {
         let said = v.check(&bridge).unwrap_err().to_string();
         assert!(said.contains("V/R^3") && said.contains("0.0001") && said.contains("0.3"));
         assert!(v.admit(&bridge, Range::Extrapolate).is_ok());
+    }
+
+    /// Volumes are some 1e-12 m³, and where any finite number is allowed the end is the largest of f64.
+    #[test]
+    fn the_message_has_no_rows_of_zeros() {
+        let bad = OutOfRange::within("film volume", -2e-12, (0.0, f64::MAX)).unwrap_err();
+        let said = bad.to_string();
+        assert!(said.contains("-2e-12") && said.len() < 90, "{said}");
     }
 }

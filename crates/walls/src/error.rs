@@ -70,7 +70,7 @@ pub enum WallError {
         count: usize,
     },
     /// A number outside its allowed range.
-    #[error("{part}: {quantity} = {value} is outside the allowed range {} to {}", allowed.0, allowed.1)]
+    #[error("{part}: {quantity} = {value:?} is outside the allowed range {:?} to {:?}", allowed.0, allowed.1)]
     OutOfRange {
         /// Name of the part, or of the kind of shape before it has one.
         part: String,
