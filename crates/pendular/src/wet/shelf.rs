@@ -178,6 +178,10 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
             return Some(Pulls::apart(&open, gap).resist(clearance));
         }
         let (pulls, fade) = self.at_contact(&seats, gap)?;
+        // A drag that does not fade tells nothing of how soon it changes once the gap opens.
+        if L::splat(permit, 0.0).less_bits(fade).count_ones() as usize != L::WIDTH {
+            return None;
+        }
         let clearance = L::splat(permit, 1.0) / fade;
         (closed.count_ones() as usize == L::WIDTH).then(|| pulls.resist(clearance))
     }
@@ -368,5 +372,39 @@ impl<C: ForceCurve, N: NormalCurve, S: TangentialCurve> Shelf<C, N, S> {
         self.free.clear();
         self.seats = live as u32;
         seats
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pendular_capillary::{CapillaryLaw, Lambert2008};
+    use pendular_lubrication::{
+        AdamsPerchard1985, Gap, NormalDrag, Overlap, Popov2010, Regularisation, TangentialDrag,
+    };
+    use pendular_pair::{Bridge, Mate, Range};
+
+    /// A pair whose gap opens is linear within a small share of its clearance. In overlap that once
+    /// was infinite for a drag that stays as it is: leaving a contact cost too much momentum.
+    #[test]
+    fn a_drag_in_overlap_has_the_clearance_of_contact() {
+        let bridge = Bridge::new(2e-3, Mate::PLANE, 1e-10, [0.0; 2], 0.07).unwrap();
+        for overlap in [Overlap::Fade, Overlap::Full] {
+            let near = Regularisation { gap: Gap::Roughness { length: 2e-6 }, overlap };
+            let curves = (
+                Lambert2008.curve(&bridge, Range::Strict).unwrap(),
+                AdamsPerchard1985 { near }.curve(&bridge, 0.1).unwrap(),
+                Popov2010 { near }.curve(&bridge, 0.1).unwrap(),
+            );
+            let mut shelf = Shelf::default();
+            let seat = shelf.seat();
+            shelf.put(seat, Far { rupture: 1e-4, curves });
+            for gap in [-1e-6, -1e-9, 0.0] {
+                let resist = shelf.resist_one(&Hold::new(0, seat), gap);
+                assert!((resist.clearance / 2e-6 - 1.0).abs() < 1e-12, "{overlap:?}: {resist:?}");
+                let drag = curves.1.coefficient(gap);
+                assert!((resist.drag / drag - 1.0).abs() < 1e-12, "{overlap:?}: {resist:?}");
+            }
+        }
     }
 }
