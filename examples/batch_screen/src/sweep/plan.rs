@@ -156,12 +156,30 @@ fn variants(file: &SweepFile, origin: &Origin) -> Result<Vec<Variant>, SceneErro
     for (k, row) in file.rows.iter().enumerate() {
         all.push(one_row(row, &format!("rows[{k}]"), origin)?);
     }
+    once(file, &all)?;
     let runs = all.len() * file.seeds.len().max(1);
     if runs > MOST {
         let key = if file.rows.is_empty() { "grid" } else { "rows" };
         return Err(wrong(origin, key, &format!("{runs} runs"), &format!("up to {MOST}")));
     }
     Ok(all)
+}
+
+/// What the file sets for all runs cannot be varied too: the run would not be what its name says.
+fn once(file: &SweepFile, variants: &[Variant]) -> Result<(), SceneError> {
+    let top = |key: &str| match key {
+        "time" => file.time.map(|_| "time"),
+        "seed" => (!file.seeds.is_empty()).then_some("seeds"),
+        _ => None,
+    };
+    let twice = |set: &Set| top(&set.key).map(|other| (set.clone(), other));
+    match variants.iter().flat_map(|(_, sets)| sets).find_map(twice) {
+        None => Ok(()),
+        Some((Set { key, value, place }, other)) => {
+            let allowed = format!("only where `{other}` at the top of the file is left out");
+            Err(SceneError::Value { place, key, value: value.to_string(), allowed })
+        }
+    }
 }
 
 /// Every combination of the lists of a grid, the last key the fastest.

@@ -184,6 +184,8 @@ const BAD: &[(&str, &str, &[&str])] = &[
     ("seeds = [1, 2]", "seed = [1, 2]", &["line 4", "`seed`", "`seeds`"]),
     ("seeds = [1, 2]", "seeds = [1, 1]", &["a second run", "seed=1"]),
     ("time = 0.005", "time = 0", &["line 3", "`time`", "above 0"]),
+    ("[grid]", "[grid]\n\"time\" = [0.001, 0.002]", &["line 7", "`time`", "0.001", "left out"]),
+    ("[grid]", "[grid]\n\"seed\" = [3, 4]", &["line 7", "`seed`", "`seeds`", "left out"]),
     ("[2.5, 5]", "[]", &["line 7", "grid.liquid.moisture_percent", "a list"]),
     ("[2.5, 5]", "5", &["line 7", "a list"]),
     ("[2.5, 5]", "[2.5, -5]", &["line 7", "`liquid.moisture_percent`", "-5", "0 to 100"]),
