@@ -48,7 +48,11 @@ pub(crate) fn sample(file: Option<PathBuf>, sweep: bool, overwrite: bool) -> Res
         ErrorKind::AlreadyExists => RunError::Exists { path: path.clone() },
         _ => RunError::Write { path: path.clone(), source },
     })?;
-    say::line(format_args!("wrote {0}; run it with: batch_screen {verb} {0}", path.display()));
+    // A built-in scene goes before a file of its name.
+    let hidden = !sweep && path.to_str().is_some_and(|name| builtin::find(name).is_some());
+    let asked = if hidden { Path::new(".").join(&path) } else { path.clone() };
+    let (path, asked) = (path.display(), asked.display());
+    say::line(format_args!("wrote {path}; run it with: batch_screen {verb} {asked}"));
     Ok(())
 }
 

@@ -263,3 +263,20 @@ fn a_file_without_a_key_and_values_in_other_units_are_told() {
         assert!(!said.contains("what there is has"), "{said}");
     }
 }
+
+/// A built-in scene goes before a file of its name.
+#[test]
+fn a_sample_by_the_name_of_a_built_in_scene_says_how_it_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (file, asked) in [("demo", "./demo"), ("mine.toml", "mine.toml")] {
+        let said = text(&run(folder, &["sample", file]).stdout);
+        assert!(said.ends_with(&format!("run it with: batch_screen run {asked}\n")), "{said}");
+        let path = folder.join(file);
+        let own =
+            std::fs::read_to_string(&path).unwrap().replace("title = \"Demo", "title = \"Own");
+        std::fs::write(&path, own).unwrap();
+        let checked = run(folder, &["check", asked]);
+        assert!(text(&checked.stdout).starts_with("Own"), "{}", text(&checked.stderr));
+    }
+}
