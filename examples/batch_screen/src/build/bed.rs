@@ -158,7 +158,10 @@ fn inside(scene: &Scene, file: &Path, placed: &[Placed]) -> Result<(), SceneErro
         None => Ok(()),
         Some(k) => {
             let allowed = format!("within {radius} m of the axis and from {low} to {top} m high");
-            fail(k as u64 + 2, format!("{} lies outside the frame: {allowed}", placed[k].position))
+            fail(
+                k as u64 + 2,
+                format!("{:?} lies outside the frame: {allowed}", placed[k].position.to_array()),
+            )
         }
     }
 }
