@@ -102,6 +102,9 @@ fn main() -> ExitCode {
 }
 
 fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
+    if cli.implicit && !cli.scene.is_wet() {
+        return Err("--implicit needs a wet scene: allowed are wet-bed and wet-screen".into());
+    }
     let bed = scene::Bed::read(&cli.particles)
         .map_err(|error| format!("{}: {error}", cli.particles.display()))?;
     let half = cli.half.unwrap_or(bed.half());
@@ -109,8 +112,10 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         return Err(format!("--tile needs two numbers, got {:?}", cli.tile).into());
     };
     let tiled = (nx, ny) != (1, 1);
-    if nx == 0 || ny == 0 || (tiled && cli.scene.has_screen()) {
-        return Err("--tile needs two positive numbers and a bed in a box".into());
+    if nx.checked_mul(ny).is_none_or(|copies| copies == 0) || (tiled && cli.scene.has_screen()) {
+        return Err(
+            "--tile needs two positive numbers, below 2^32 copies, and a bed in a box".into()
+        );
     }
     let bed = if tiled { bed.tiled([nx, ny], half)? } else { bed };
     let sides = half * DVec3::new(f64::from(nx), f64::from(ny), 1.0);

@@ -28,7 +28,7 @@ pub(crate) fn run<T: PairTerm>(
 ) -> Result<Measured, SimulationError> {
     let mut simulation = Simulation::new(particles, term, walls, settings)?;
     simulation.advance(warm)?;
-    let before = simulation.profile();
+    let (before, passed) = (simulation.profile(), simulation.passes());
     let start = Instant::now();
     simulation.advance(steps)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -59,7 +59,7 @@ pub(crate) fn run<T: PairTerm>(
         part(after.settling, before.settling),
         part(after.integration, before.integration),
         part(after.resistance, before.resistance),
-        passes.passes as f64 / passes.steps.max(1) as f64,
+        (passes.passes - passed.passes) as f64 / (passes.steps - passed.steps).max(1) as f64,
     );
     let centres = centres(&simulation);
     Ok(Measured { particles: n, seconds, memory, check, centres })

@@ -40,6 +40,11 @@ impl Bed {
     /// Reads a bed; every pair of radius and density is a class.
     pub(crate) fn read(path: &Path) -> Result<Self, Box<dyn Error>> {
         let mut reader = csv::Reader::from_path(path)?;
+        let header = reader.headers()?;
+        if !header.iter().map(str::trim).eq(COLUMNS) {
+            let (found, asked) = (header.iter().collect::<Vec<_>>().join(","), COLUMNS.join(","));
+            return Err(format!("line 1: the header is `{found}`, it must be `{asked}`").into());
+        }
         let mut kinds: Vec<[f64; 2]> = Vec::new();
         let mut rows: Vec<(u16, DVec3)> = Vec::new();
         for record in reader.records() {
@@ -56,6 +61,9 @@ impl Bed {
                 kinds.len() - 1
             });
             rows.push((class as u16, DVec3::new(number(1)?, number(2)?, number(3)?)));
+        }
+        if rows.is_empty() {
+            return Err("there is no sphere in it".into());
         }
         let classes: Result<Vec<_>, _> =
             kinds.iter().map(|[radius, density]| Class::new(*radius, *density, 0)).collect();
