@@ -141,6 +141,13 @@ pub(crate) fn table(scene: &Scene, derived: &Derived, outcome: &Outcome) -> Stri
         );
     }
     text += &budget::text(&outcome.budget, tally.capillary_loss);
+    if outcome.passes.at_most > 0 {
+        text += &format!(
+            "  {} of {} steps with implicit drags stopped at the most passes, short of \
+             liquid.drag_tolerance\n",
+            outcome.passes.at_most, outcome.passes.steps
+        );
+    }
     let seconds = outcome.wall_time.as_secs_f64();
     text += &format!(
         "  {} steps in {seconds:.1} s of wall time; largest overlap {:.2} % of a radius\n  {}",

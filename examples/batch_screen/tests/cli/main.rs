@@ -165,6 +165,12 @@ fn a_viscous_scene_runs_at_the_step_of_its_contacts() {
     let short = ["run", "small.toml", "--time", "0.02", "--set", "liquid.viscosity=10.0"];
     let ran = run(folder.path(), &short);
     assert!(ran.status.success(), "{}", text(&ran.stderr));
+    assert!(!text(&ran.stdout).contains("most passes"), "{}", text(&ran.stdout));
+    let finer = ["--set", "liquid.viscosity=1e6", "--set", "liquid.drag_tolerance=1e-9"];
+    let ran = run(folder.path(), &[&short[..], &["--out", "finer"], &finer].concat());
+    let summary = &common::summary(&folder.path().join("finer"))["drag_passes_since_resume"];
+    let said = format!("{} of {} steps", summary["steps_at_most_passes"], summary["steps"]);
+    assert!(text(&ran.stdout).contains(&said), "{said}: {}", text(&ran.stdout));
     let refused = run(folder.path(), &[&short[..], &["--set", "liquid.drag=explicit"]].concat());
     assert!(text(&refused.stderr).contains("viscous drag"), "{}", text(&refused.stderr));
     let unknown = run(folder.path(), &["check", "small.toml", "--set", "liquid.drag=partly"]);
