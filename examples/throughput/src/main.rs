@@ -3,6 +3,7 @@
 mod measure;
 mod scene;
 
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -136,8 +137,8 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         let term = scene::contact(bed.particles.classes())?;
         measure::run(bed.particles, term, walls, settings, cli.warm, cli.steps)?
     };
-    println!(
-        "pendular {} {} {} {} {:.3} {:.4e} {:.1}",
+    let mut said = format!(
+        "pendular {} {} {} {} {:.3} {:.4e} {:.1}\n",
         cli.scene.name(),
         cli.threads,
         result.particles,
@@ -151,7 +152,11 @@ fn run(cli: &Cli) -> Result<(), Box<dyn std::error::Error>> {
         std::fs::write(path, &result.centres).map_err(failed)?;
     }
     if cli.check {
-        println!("{}", result.check);
+        said += &format!("{}\n", result.check);
     }
-    Ok(())
+    match std::io::stdout().write_all(said.as_bytes()) {
+        // Whoever reads along may have had enough.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "the helpers of tests may panic like the tests")]
 
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// Runs ten steps of a bed; returns the exit code and what was said.
 fn measured(bed: &str, scene: &str, options: &[&str]) -> (Option<i32>, String) {
@@ -43,4 +43,18 @@ fn a_good_bed_is_measured() {
         assert_eq!(code, Some(0), "{said}");
         assert!(said.starts_with(&format!("pendular {scene} 1 1 10 ")), "{said}");
     }
+}
+
+/// As `throughput … | head -1` does.
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bed.csv");
+    std::fs::write(&path, BED).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_throughput"));
+    program.args(["--steps", "10", "--scene", "dry-bed", "--check", "--particles"]).arg(&path);
+    let mut child = program.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let done = child.wait_with_output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }
