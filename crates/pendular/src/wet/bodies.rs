@@ -98,6 +98,7 @@ pub(super) fn parameter(error: TransferError) -> OutOfRange {
 
 /// Checks liquid, bodies and films once, where they enter.
 pub(super) fn check(liquid: &Liquid, bodies: &Bodies, films: &[f64]) -> Result<(), WetError> {
+    check_lists(bodies, films.len())?;
     OutOfRange::positive("surface tension", liquid.surface_tension)?;
     OutOfRange::positive("viscosity", liquid.viscosity)?;
     OutOfRange::positive("liquid density", liquid.density)?;
@@ -123,4 +124,69 @@ pub(super) fn check(liquid: &Liquid, bodies: &Bodies, films: &[f64]) -> Result<(
         }
     }
     Ok(())
+}
+
+/// What names something must name what is there: nothing is looked up in vain later.
+fn check_lists(bodies: &Bodies, particles: usize) -> Result<(), OutOfRange> {
+    let (classes, parts) = (bodies.radii.len(), bodies.half_sides.len());
+    let lengths = [
+        ("number of particles with a class", bodies.class.len(), particles),
+        ("number of materials of classes", bodies.materials.len(), classes),
+        ("number of materials of wall parts", bodies.wall_materials.len(), parts),
+        ("number of first elements of wall parts", bodies.first_elements.len(), parts),
+    ];
+    for (quantity, found, asked) in lengths {
+        OutOfRange::within(quantity, found as f64, (asked as f64, asked as f64))?;
+    }
+    let last = classes as f64 - 1.0;
+    for &class in &bodies.class {
+        OutOfRange::within("class of a particle", class.into(), (0.0, last))?;
+    }
+    let all = bodies.elements.len() as f64;
+    for &first in &bodies.first_elements {
+        OutOfRange::within("first element of a wall part", first.into(), (0.0, all))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_that_do_not_fit_each_other_are_named() {
+        let liquid = Liquid {
+            surface_tension: 0.07,
+            viscosity: 1e-3,
+            density: 1e3,
+            particle_angles: vec![0.1],
+            wall_angles: vec![0.1],
+        };
+        let good = Bodies {
+            class: vec![0, 0],
+            radii: vec![1e-3],
+            materials: vec![0],
+            half_sides: vec![f64::INFINITY],
+            wall_materials: vec![0],
+            first_elements: vec![0],
+            elements: vec![WallElement { area: 1e-4 }],
+        };
+        let films = [1e-12; 2];
+        assert_eq!(check(&liquid, &good, &films), Ok(()));
+        type Spoil = fn(&mut Bodies);
+        let cases: [(Spoil, &str); 6] = [
+            (|b| b.class = vec![0], "particles with a class"),
+            (|b| b.class = vec![0, 1], "class of a particle"),
+            (|b| b.materials.clear(), "materials of classes"),
+            (|b| b.wall_materials.clear(), "materials of wall parts"),
+            (|b| b.first_elements.clear(), "first elements"),
+            (|b| b.first_elements = vec![2], "first element"),
+        ];
+        for (spoil, word) in cases {
+            let mut bodies = good.clone();
+            spoil(&mut bodies);
+            let said = check(&liquid, &bodies, &films).unwrap_err().to_string();
+            assert!(said.contains(word), "{said}");
+        }
+    }
 }
