@@ -31,8 +31,7 @@ pub(crate) fn list() -> Result<(), RunError> {
 /// Prints a built-in scene.
 pub(crate) fn show(name: &str) -> Result<(), RunError> {
     let text = builtin::find(name).ok_or_else(|| unknown(name))?;
-    say::text(text);
-    Ok(())
+    say::product(text)
 }
 
 /// Writes the demo scene, or a sweep, to a file.

@@ -280,3 +280,18 @@ fn a_sample_by_the_name_of_a_built_in_scene_says_how_it_runs() {
         assert!(text(&checked.stdout).starts_with("Own"), "{}", text(&checked.stderr));
     }
 }
+
+/// Half a scene or half a job script is worse than none.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_where_the_text_is_all_there_is() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), "scene = \"demo\"\ntime = 0.01\n").unwrap();
+    for args in [&["show", "demo"][..], &["sweep", "s.toml", "--emit", "slurm"]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut program = common::program();
+        let done = program.current_dir(folder.path()).args(args).stdout(full).output().unwrap();
+        let said = text(&done.stderr);
+        assert!(done.status.code() == Some(1) && said.contains("stdout"), "{args:?}: {said}");
+    }
+}

@@ -52,8 +52,8 @@ pub(crate) fn sweep(args: &SweepArgs) -> Result<(), RunError> {
     let jobs = jobs(args.jobs)?;
     let threads = commands::count_threads(args.how.threads.or(Some((cores / jobs).max(1))))?;
     match args.emit {
-        Some(Emit::List) => say::text(&emit::list(&plan, args, &out, threads)),
-        Some(Emit::Slurm) => say::text(&emit::slurm(&plan, args, &out, threads)),
+        Some(Emit::List) => say::product(&emit::list(&plan, args, &out, threads))?,
+        Some(Emit::Slurm) => say::product(&emit::slurm(&plan, args, &out, threads))?,
         None => {
             let beds = args.beds.clone().unwrap_or_else(|| out.join("beds"));
             let how = How { threads: Some(threads), ..args.how.clone() };
