@@ -12,7 +12,7 @@ impl Links {
     /// Charges all pairs up to the gaps that the velocities lead to.
     ///
     /// Without that a pair is charged up to the gap that its impulse was found for, and for the rest
-    /// of the way in the next step. That rest is some 1e-3 g of an impulse, g = h c/m: between stiff
+    /// of the way in the next step. That rest is some 1e-2 g of an impulse, g = h c/m: between stiff
     /// pairs, or where the passes did not come to their end, the next step would throw back what
     /// this one let through, and drive the bodies.
     pub(crate) fn close(&self, velocities: &[Velocity], first: u32, memory: &mut dyn Memory) {

@@ -9,10 +9,10 @@ use crate::{Class, EachColumn, Encounter, Load, Pair, PairTerm, TermError, Visit
 /// Taken from the start of the step, a drag allows a step of h < 2 m/c only, in inverse proportion
 /// to the viscosity. Here an impulse per pair is sought that fits the velocities *after* it, for all
 /// pairs together, so that the step is limited by the springs alone. What the drag takes over a
-/// step is its integral over the gap that was travelled, so that m* v + G(S) is kept to rounding,
+/// step is its integral over the gap that was travelled, so that m* v + G(S) is kept to 1e-6,
 /// however fast a thin film closes.
 ///
-/// It costs a column of 48 bytes a pair, and two passes over all pairs or more. Terms hand over what
+/// It costs a column of 48 bytes a pair, and one pass over all pairs or more. Terms hand over what
 /// they give in [`PairTerm::resist`].
 ///
 /// # Sources

@@ -24,8 +24,8 @@ pub struct Settings {
     pub inner_skin: Option<f64>,
     /// Largest overlap at the start, as a share of the smaller radius.
     pub start_overlap: f64,
-    /// An implicit term's passes over all pairs stop when a pass changes the impulses by less than this
-    /// share of them, more than 0; results depend on it a little.
+    /// An implicit term's passes over all pairs stop when further ones are to change the impulses by less
+    /// than this share of them, more than 0. Results depend on it a little.
     pub pass_tolerance: f64,
     /// Goes on with a time step above the stability limit.
     pub allow_unstable: bool,
