@@ -40,12 +40,12 @@ pub(crate) fn draw(runs: &[Run]) -> String {
         svg.area([left, band], [WIDE, TOP + HIGH - band], 225);
         panel(&mut svg, (&x, 0.0, "processor time, s"), (&y, 0.0, &format!("error of {name}")));
         let at = |run: &Run| [x.at(run.found.cost), y.at((run.values()[k] - truth.0).abs())];
-        points(&mut svg, runs, left + WIDE, at);
+        points(&mut svg, runs, [left, left + WIDE], at);
     }
     svg.finish()
 }
 
-fn points(svg: &mut Svg, runs: &[Run], right: f64, at: impl Fn(&Run) -> [f64; 2]) {
+fn points(svg: &mut Svg, runs: &[Run], ends: [f64; 2], at: impl Fn(&Run) -> [f64; 2]) {
     let steps = runs.iter().filter(|run| run.axis == runs::Axis::Step);
     let line: Vec<_> = steps.map(&at).collect();
     if line.len() > 1 {
@@ -65,7 +65,7 @@ fn points(svg: &mut Svg, runs: &[Run], right: f64, at: impl Fn(&Run) -> [f64; 2]
             _ => run.label(),
         };
         svg.mark(at(run), mark, filled);
-        let place = label(at(run), &words, right, &taken);
+        let place = label(at(run), &words, ends, &taken);
         svg.text([place.left, place.bottom - 2.0], Anchor::Start, 9.5, &words);
         taken.push(place);
     }
@@ -92,8 +92,8 @@ impl Area {
     }
 }
 
-/// Where words about a mark go: beside it where nothing else is, and not beyond the right of the panel.
-fn label([x, y]: [f64; 2], words: &str, right: f64, taken: &[Area]) -> Area {
+/// Where words about a mark go: beside it where nothing else is, and not beyond the ends of the panel.
+fn label([x, y]: [f64; 2], words: &str, [left, right]: [f64; 2], taken: &[Area]) -> Area {
     let wide = 5.2 * words.chars().count() as f64;
     let area = |left: f64, middle: f64| Area {
         left,
@@ -106,7 +106,8 @@ fn label([x, y]: [f64; 2], words: &str, right: f64, taken: &[Area]) -> Area {
         let beside = if down == 0.0 { 8.0 } else { 3.0 };
         [area(x + beside, y + down), area(x - beside - wide, y + down)]
     });
-    let free = |place: &Area| place.right <= right && !taken.iter().any(|t| t.meets(place));
+    let inside = |place: &Area| place.left >= left && place.right <= right;
+    let free = |place: &Area| inside(place) && !taken.iter().any(|t| t.meets(place));
     places.clone().find(free).unwrap_or_else(|| area((x + 8.0).min(right - wide), y))
 }
 
@@ -119,9 +120,9 @@ mod tests {
         let marks = [[100.0, 50.0], [104.0, 52.0], [290.0, 50.0]];
         let mut taken: Vec<Area> = marks.into_iter().map(Area::around).collect();
         for mark in marks {
-            let place = label(mark, "young-laplace", 300.0, &taken);
+            let place = label(mark, "young-laplace", [80.0, 300.0], &taken);
             assert!(!taken.iter().any(|t| t.meets(&place)), "{place:?}");
-            assert!(place.right <= 300.0 && place.left > 0.0, "{place:?}");
+            assert!(place.right <= 300.0 && place.left >= 80.0, "{place:?}");
             taken.push(place);
         }
     }
