@@ -413,6 +413,7 @@ fn a_pair_that_turns_as_one_body_keeps_its_energy() {
         let turn = (1.0 / spin.z / step()) as u64;
         simulation.advance(turn).unwrap();
         let now = simulation.particles().kinetic_energy();
+        println!("turning as one body, η = {viscosity} Pa s: {:.1e}", now / before - 1.0);
         assert!((now / before - 1.0).abs() < 1e-5, "η {viscosity}: {}", now / before - 1.0);
         assert_eq!(simulation.term().inner().1.alive(), 1);
     }

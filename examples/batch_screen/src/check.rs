@@ -250,7 +250,9 @@ fn wet(liquid: &LiquidSpec, check: &Check<'_>) -> Result<(), SceneError> {
     check.within("liquid.density", liquid.density, 1.0, 1e5)?;
     check.up_to("liquid.surface_tension", liquid.surface_tension, 1e3)?;
     check.up_to("liquid.viscosity", liquid.viscosity, 1e6)?;
-    check.within("liquid.drag_tolerance", liquid.drag_tolerance, 1e-9, 0.1)?;
+    if let Some(tolerance) = liquid.drag_tolerance {
+        check.within("liquid.drag_tolerance", tolerance, 1e-9, 0.1)?;
+    }
     check.within("liquid.roughness_share", liquid.roughness_share, 1e-9, 1.0)?;
     let laws = AnyCapillary::ALL.map(|law| law.name());
     check.name("liquid.capillary", &liquid.capillary, &laws, &[AUTO])?;

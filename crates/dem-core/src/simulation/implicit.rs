@@ -124,7 +124,7 @@ impl<T: PairTerm, B: Boundary> Simulation<T, B> {
     }
 
     /// A pass over all pairs for impulses that act for `duration` s: inside the chunks and then across
-    /// them, or the other way round. Returns whether that was the last on the way back.
+    /// them, or the other way round. On the way back it returns whether further ones would change little.
     fn pass(&mut self, duration: f64, forward: bool) -> bool {
         let tolerance = self.settings.pass_tolerance;
         let visit = Visit { duration, share: 1.0, forward, tolerance };

@@ -13,8 +13,8 @@ pub struct Settings {
     pub time_step: f64,
     /// Gravity, m/s².
     pub gravity: DVec3,
-    /// Threads, 1 to [`crate::MOST_THREADS`]; results do not depend on them. Those beyond one wait for work without sleeping while
-    /// [`crate::Simulation::advance`] runs.
+    /// Threads, 1 to [`crate::MOST_THREADS`]; results do not depend on them. Those beyond one wait for
+    /// work without sleeping while [`crate::Simulation::advance`] runs.
     pub threads: usize,
     /// Corners of the box that particles may be in, m; one outside leaves the scene.
     pub domain: Option<(DVec3, DVec3)>,

@@ -24,8 +24,7 @@ pub(super) fn pool(threads: usize) -> Result<Option<Arc<ThreadPool>>, Simulation
         return Ok(None);
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let failed = |e: rayon::ThreadPoolBuildError| failed(e.to_string());
-    pool.map(|pool| Some(Arc::new(pool))).map_err(failed)
+    pool.map(|pool| Some(Arc::new(pool))).map_err(|e| failed(e.to_string()))
 }
 
 /// Does work on one thread of a pool while so many others stay awake to take part in it.

@@ -198,8 +198,8 @@ fn settings(scene: &Scene, limit: f64, threads: usize) -> Settings {
     let mut settings = Settings::new(step);
     settings.gravity = DVec3::from_array(scene.gravity);
     settings.threads = threads;
-    if let Some(liquid) = &scene.liquid {
-        settings.pass_tolerance = liquid.drag_tolerance;
+    if let Some(tolerance) = scene.liquid.as_ref().and_then(|liquid| liquid.drag_tolerance) {
+        settings.pass_tolerance = tolerance;
     }
     let far = if far.is_finite() { far } else { around };
     settings.domain =

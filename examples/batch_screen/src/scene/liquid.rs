@@ -20,8 +20,7 @@ pub(crate) struct LiquidSpec {
     #[serde(default)]
     pub(crate) drag: Drag,
     /// Share of the impulses at which the passes of implicit drags stop.
-    #[serde(default = "passes")]
-    pub(crate) drag_tolerance: f64,
+    pub(crate) drag_tolerance: Option<f64>,
     /// Roughness of the lubrication gap as a share of the radius.
     #[serde(default = "thousandth")]
     pub(crate) roughness_share: f64,
@@ -74,8 +73,4 @@ pub(crate) enum OutsideRange {
 
 fn thousandth() -> f64 {
     0.001
-}
-
-fn passes() -> f64 {
-    0.01
 }
